@@ -1,0 +1,122 @@
+"""The `Algorithm` protocol and the values that cross it. Imports no torch, so that anything may import this."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol
+
+from pydantic import BaseModel
+
+from robot_adapters.base import Array, SkillCall, SkillSpec
+
+
+class AgentError(Exception):
+    """Base of every error of this package. `remedy` says what the reader can do about it."""
+
+    def __init__(self, message: str, *, remedy: str) -> None:
+        super().__init__(message)
+        self.remedy = remedy
+
+
+class CheckpointError(AgentError):
+    """A checkpoint that is damaged, of another version, or of another task or architecture."""
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What an algorithm is told of its task.
+
+    state_low, state_high: (n,) bounds used to scale the state to about [-1, 1].
+    """
+
+    task: str
+    state_low: Array
+    state_high: Array
+    skills: tuple[SkillSpec, ...]
+
+
+@dataclass(frozen=True)
+class Suggestion:
+    """A skill call with what the agent thinks of it.
+
+    predicted_feedback: the critic's estimate of the label, about [-1, 1] (paper, eq. 1).
+    skill_probabilities: pi_phi(a|s) by skill name. policy_version: gradient steps taken so far.
+    """
+
+    call: SkillCall
+    predicted_feedback: float
+    skill_probabilities: Mapping[str, float]
+    policy_version: int
+
+
+@dataclass(frozen=True)
+class Label:
+    """One stored feedback as the learner sees it.
+
+    id: the feedback's id in the store, ascending. state: (n,). value: -1, 0 or +1.
+    near: whether the call's position is within reach of a task-relevant object (the paper's affordance).
+    """
+
+    id: int
+    state: Array
+    call: SkillCall
+    value: int
+    near: bool = True
+
+
+class Algorithm(Protocol):
+    """Something that suggests skill calls and learns from labels. Used from one thread."""
+
+    policy_version: int
+    """Gradient steps taken so far."""
+
+    last_label_id: int
+    """The newest label that `add` has seen; 0 before any."""
+
+    @property
+    def owed_updates(self) -> int:
+        """Gradient steps that the schedule asks for because of labels added and not yet worked off."""
+
+    def propose(self, state: Array, *, deterministic: bool = False) -> Suggestion:
+        """Suggest a call for state (n,).
+
+        Raises:
+            AgentError: the state has the wrong shape or holds a value that is not finite.
+        """
+
+    def add(self, labels: Sequence[Label]) -> None:
+        """Take labels into the replay. Each is taken once: an id seen before is ignored."""
+
+    def restore(self, labels: Sequence[Label]) -> None:
+        """Fill the replay after `load`: labels up to `last_label_id` owe no updates, newer ones do."""
+
+    def forget(self, label_id: int) -> None:
+        """Take an undone label out of the replay; unknown ids are ignored."""
+
+    def update(self) -> Mapping[str, float] | None:
+        """One gradient step; its metrics, or None where there is nothing to learn from yet."""
+
+    def save(self, path: Path) -> None:
+        """Write networks, optimisers, temperatures, random state and counters atomically. The replay isn't written."""
+
+    def load(self, path: Path) -> None:
+        """Read what `save` wrote.
+
+        Raises:
+            CheckpointError: it is damaged or belongs to something else. Nothing has changed.
+        """
+
+
+class AlgorithmFactory(Protocol):
+    """What an entry point of the group `seed.algorithms` names."""
+
+    settings: type[BaseModel]
+    """Pydantic model of the algorithm's settings, each field documented."""
+
+    presets: Mapping[str, Mapping[str, Any]]
+    """Preset name -> settings that differ from the defaults."""
+
+    def __call__(self, problem: Problem, settings: BaseModel, seed: int) -> Algorithm:
+        """Build the algorithm. Only here may torch be imported."""

@@ -1,0 +1,1 @@
+"""What each task says of its state, skills, goal and teacher. numpy only."""
