@@ -29,12 +29,14 @@ class Problem:
     """What an algorithm is told of its task.
 
     state_low, state_high: (n,) bounds used to scale the state to about [-1, 1].
+    state_names: a name for each of the n entries, for messages; may be left out.
     """
 
     task: str
     state_low: Array
     state_high: Array
     skills: tuple[SkillSpec, ...]
+    state_names: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -78,6 +80,10 @@ class Algorithm(Protocol):
     @property
     def owed_updates(self) -> int:
         """Gradient steps that the schedule asks for because of labels added and not yet worked off."""
+
+    @property
+    def spare_updates(self) -> int:
+        """Steps beyond the owed ones that fresh labels allow while a person thinks; `update` takes them last."""
 
     def propose(self, state: Array, *, deterministic: bool = False) -> Suggestion:
         """Suggest a call for state (n,).

@@ -1,0 +1,122 @@
+"""Skill actor, parameter actors and human critic as stacks of small networks evaluated together.
+
+Shapes: B states, n state entries, K skills, P parameters of the longest skill, E critics.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import torch
+from torch import Tensor, nn
+
+LOG_STD_MIN, LOG_STD_MAX = -20.0, 2.0  # SAC's and MAPLE's bounds
+LOGIT_BOUND = 10.0  # MAPLE: keeps every skill's probability above zero
+ACTOR_OUTPUT_RANGE = 1e-3  # MAPLE: a fresh actor is near uniform over skills and centred in the workspace
+CRITIC_OUTPUT_RANGE = 3e-3  # MAPLE
+
+
+class StackedMLP(nn.Module):
+    """`count` networks of the same shape with ReLU, run as one batched product a layer.
+
+    sizes: input, hidden ..., output. output_range: bound of the last layer's initial weights.
+    """
+
+    def __init__(self, count: int, sizes: Sequence[int], output_range: float, generator: torch.Generator) -> None:
+        super().__init__()
+        self.weights = nn.ParameterList()
+        self.biases = nn.ParameterList()
+        layers = list(pairwise(sizes))
+        for index, (fan_in, fan_out) in enumerate(layers):
+            bound = output_range if index == len(layers) - 1 else fan_in**-0.5
+            weight = torch.empty(count, fan_in, fan_out).uniform_(-bound, bound, generator=generator)
+            self.weights.append(nn.Parameter(weight))
+            self.biases.append(nn.Parameter(torch.zeros(count, 1, fan_out)))
+
+    def forward(self, x: Tensor, *, frozen: bool = False) -> Tensor:
+        """(B, input), the same for every network -> (count, B, output).
+
+        frozen: gradients reach `x` but not the weights, so that one backward pass can serve actors and critic.
+        """
+        weights = [w.detach() for w in self.weights] if frozen else list(self.weights)
+        biases = [b.detach() for b in self.biases] if frozen else list(self.biases)
+        h = x.expand(weights[0].shape[0], *x.shape)
+        for weight, bias in zip(weights[:-1], biases[:-1], strict=True):
+            h = torch.relu(torch.baddbmm(bias, h, weight))
+        return torch.baddbmm(biases[-1], h, weights[-1])
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Sizes of a task's networks. parameter_counts: parameters of each skill, K entries."""
+
+    state_size: int
+    parameter_counts: tuple[int, ...]
+
+    @property
+    def skills(self) -> int:
+        """K."""
+        return len(self.parameter_counts)
+
+    @property
+    def width(self) -> int:
+        """P, at least 1: a task whose skills take no parameters has one padded column."""
+        return max(1, *self.parameter_counts)
+
+    def mask(self) -> Tensor:
+        """(K, 1, P) 1 where a skill has that parameter, 0 where the vector is padded."""
+        rows = [[1.0] * count + [0.0] * (self.width - count) for count in self.parameter_counts]
+        return torch.tensor(rows).unsqueeze(1)
+
+
+class Networks(nn.Module):
+    """Everything SEED learns: actors, critics and the logarithms of both temperatures (figure 2 of the paper)."""
+
+    def __init__(
+        self,
+        layout: Layout,
+        *,
+        hidden: Sequence[int],
+        critics: int,
+        initial_temperature: float,
+        generator: torch.Generator,
+    ) -> None:
+        super().__init__()
+        n, K, P = layout.state_size, layout.skills, layout.width
+        self.layout = layout
+        self.skill_actor = StackedMLP(1, [n, *hidden, K], ACTOR_OUTPUT_RANGE, generator)
+        self.parameter_actors = StackedMLP(K, [n, *hidden, 2 * P], ACTOR_OUTPUT_RANGE, generator)
+        self.critics = StackedMLP(critics, [n + K + P, *hidden, 1], CRITIC_OUTPUT_RANGE, generator)
+        log_temperature = torch.tensor(initial_temperature).log()
+        self.log_skill_temperature = nn.Parameter(log_temperature.clone())
+        self.log_parameter_temperature = nn.Parameter(log_temperature.clone())
+        self.mask: Tensor
+        self.one_hot: Tensor
+        self.register_buffer("mask", layout.mask(), persistent=False)
+        self.register_buffer("one_hot", torch.eye(K), persistent=False)
+
+    def skill_log_probabilities(self, states: Tensor) -> Tensor:
+        """(B, n) -> (B, K) log pi_phi(a|s)."""
+        logits = self.skill_actor(states)[0].clamp(-LOGIT_BOUND, LOGIT_BOUND)
+        return torch.log_softmax(logits, dim=-1)
+
+    def parameter_distributions(self, states: Tensor) -> tuple[Tensor, Tensor]:
+        """(B, n) -> mean and log standard deviation (K, B, P) before tanh; padded columns are meaningless."""
+        mean, log_std = self.parameter_actors(states).chunk(2, dim=-1)
+        return mean, log_std.clamp(LOG_STD_MIN, LOG_STD_MAX)
+
+    def predict(self, states: Tensor, skills: Tensor, parameters: Tensor) -> Tensor:
+        """H_theta(s, a, x) of each critic: (B, n), (B,) indices, (B, P) in [-1, 1], padded with 0 -> (E, B)."""
+        predicted: Tensor = self.critics(torch.cat([states, self.one_hot[skills], parameters], dim=-1))
+        return predicted.squeeze(-1)
+
+    def predict_every_skill(self, states: Tensor, parameters: Tensor) -> Tensor:
+        """The lowest H_theta(s, a, x_a) for every skill: (B, n), (K, B, P) -> (K, B). The critics get no gradient."""
+        K, B = parameters.shape[0], states.shape[0]
+        rows = torch.cat(
+            [states.expand(K, B, -1), self.one_hot.unsqueeze(1).expand(K, B, K), parameters], dim=-1
+        ).reshape(K * B, -1)
+        predicted: Tensor = self.critics(rows, frozen=True)
+        return predicted.squeeze(-1).amin(dim=0).view(K, B)

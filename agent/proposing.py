@@ -1,0 +1,49 @@
+"""How a proposal is chosen: a skill from the skill actor, its parameters from that skill's actor (Algorithm 1)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+
+from agent.networks import Networks
+from agent.replay import Float32
+from robot_adapters.base import Array
+
+
+@dataclass(frozen=True)
+class Choice:
+    """skill: index. parameters: (P,) in [-1, 1], padded with 0. probabilities: (K,). predicted: H_theta(s, a, x)."""
+
+    skill: int
+    parameters: Array
+    probabilities: Array
+    predicted: float
+
+
+@torch.inference_mode()
+def choose(networks: Networks, state: Float32, generator: torch.Generator, *, deterministic: bool) -> Choice:
+    """Draw a ~ pi_phi(.|s), x ~ pi_psi(.|s, a); or, deterministic, take the likeliest skill and its actor's middle.
+
+    state: (n,) scaled. A deterministic choice draws nothing from `generator`, so evaluating changes no proposal.
+    predicted is the mean over the critics.
+    """
+    states = torch.from_numpy(state).unsqueeze(0)
+    probabilities = networks.skill_log_probabilities(states)[0].exp()
+    mean, log_std = (part[:, 0] for part in networks.parameter_distributions(states))
+    if deterministic:
+        skill = int(probabilities.argmax())
+        before = mean[skill]
+    else:
+        skill = int(torch.multinomial(probabilities, 1, generator=generator))
+        noise = torch.randn(mean.shape[-1], generator=generator)
+        before = mean[skill] + log_std[skill].exp() * noise
+    parameters = torch.tanh(before) * networks.mask[skill, 0]
+    predicted = networks.predict(states, torch.tensor([skill]), parameters.unsqueeze(0)).mean()
+    return Choice(
+        skill=skill,
+        parameters=parameters.numpy().astype(np.float64),
+        probabilities=probabilities.numpy().astype(np.float64),
+        predicted=float(predicted),
+    )

@@ -1,0 +1,167 @@
+"""The balanced replay: labels by ascending id, drawn half good and half bad (paper, "Balanced replay buffer")."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Float32 = NDArray[np.float32]
+"""A float32 array, ready for a network."""
+
+INITIAL_CAPACITY = 1024
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A label as the networks see it.
+
+    state: (n,) scaled. skill: index. parameters: (P,) in [-1, 1], padded with 0. value: -1, 0 or +1.
+    target: what the critic regresses: the value, less the affordance penalty where it applies.
+    """
+
+    id: int
+    state: Float32
+    skill: int
+    parameters: Float32
+    value: int
+    target: float
+
+
+@dataclass(frozen=True)
+class Batch:
+    """B entries as arrays: states (B, n), skills (B,), parameters (B, P), targets (B,)."""
+
+    states: Float32
+    skills: NDArray[np.int64]
+    parameters: Float32
+    targets: Float32
+
+
+def shares(counts: Mapping[int, int], size: int) -> dict[int, int]:
+    """How many of a batch of `size` (at least 4) are drawn of each value, given how many labels there are of each.
+
+    Neutral labels get the share they have among all labels, at least one and leaving room for the others. The rest is
+    half good and half bad; where only one of these exists it takes the whole rest.
+    """
+    total = sum(counts.values())
+    judged = counts[1] + counts[-1]
+    neutral = 0
+    if counts[0]:
+        neutral = min(max(1, round(size * counts[0] / total)), size - 2) if judged else size
+    rest = size - neutral
+    if not judged:
+        good = 0
+    elif not counts[1] or not counts[-1]:
+        good = rest if counts[1] else 0
+    else:
+        good = rest // 2
+    return {1: good, 0: neutral, -1: rest - good}
+
+
+class Replay:
+    """Labels in arrays allocated ahead, doubled when full.
+
+    Always in ascending order of id, so what `sample` draws depends on the labels held and the random state only, not
+    on the order of arrival, undone labels or a restart.
+    """
+
+    def __init__(self, state_size: int, parameter_size: int) -> None:
+        self._size = 0
+        self._ids = np.zeros(INITIAL_CAPACITY, dtype=np.int64)
+        self._states = np.zeros((INITIAL_CAPACITY, state_size), dtype=np.float32)
+        self._skills = np.zeros(INITIAL_CAPACITY, dtype=np.int64)
+        self._parameters = np.zeros((INITIAL_CAPACITY, parameter_size), dtype=np.float32)
+        self._values = np.zeros(INITIAL_CAPACITY, dtype=np.int8)
+        self._targets = np.zeros(INITIAL_CAPACITY, dtype=np.float32)
+        self._by_value: dict[int, NDArray[np.int64]] | None = None
+
+    def __len__(self) -> int:
+        return self._size
+
+    def __contains__(self, label_id: int) -> bool:
+        at = self._position(label_id)
+        return at < self._size and int(self._ids[at]) == label_id
+
+    def counts(self) -> dict[int, int]:
+        """How many labels of each value are held."""
+        return {value: len(rows) for value, rows in self._rows().items()}
+
+    def add(self, entry: Entry) -> None:
+        """Take one label.
+
+        Raises:
+            ValueError: its id is held already, or its value is none of -1, 0, +1.
+        """
+        if entry.id in self:
+            raise ValueError(f"label {entry.id} is held already")
+        if entry.value not in (-1, 0, 1):
+            raise ValueError(f"value is {entry.value}, not -1, 0 or 1")
+        if self._size == len(self._ids):
+            self._grow()
+        at = self._position(entry.id)
+        for column in self._columns():
+            column[at + 1 : self._size + 1] = column[at : self._size]
+        self._ids[at] = entry.id
+        self._states[at] = entry.state
+        self._skills[at] = entry.skill
+        self._parameters[at] = entry.parameters
+        self._values[at] = entry.value
+        self._targets[at] = entry.target
+        self._size += 1
+        self._by_value = None
+
+    def forget(self, label_id: int) -> None:
+        """Take a label out; an unknown id is ignored."""
+        if label_id not in self:
+            return
+        at = self._position(label_id)
+        for column in self._columns():
+            column[at : self._size - 1] = column[at + 1 : self._size]
+        self._size -= 1
+        self._by_value = None
+
+    def clear(self) -> None:
+        """Take every label out."""
+        self._size = 0
+        self._by_value = None
+
+    def sample(self, size: int, rng: np.random.Generator) -> Batch:
+        """Draw `size` labels with replacement in the proportions of `shares`.
+
+        Raises:
+            ValueError: the replay is empty.
+        """
+        if not self._size:
+            raise ValueError("the replay is empty")
+        rows = self._rows()
+        wanted = shares({value: len(found) for value, found in rows.items()}, size)
+        drawn = np.concatenate(
+            [found[rng.integers(len(found), size=wanted[value])] for value, found in rows.items() if wanted[value]]
+        )
+        return Batch(self._states[drawn], self._skills[drawn], self._parameters[drawn], self._targets[drawn])
+
+    def _rows(self) -> dict[int, NDArray[np.int64]]:
+        """Row numbers by value."""
+        if self._by_value is None:
+            values = self._values[: self._size]
+            self._by_value = {value: np.flatnonzero(values == value) for value in (1, 0, -1)}
+        return self._by_value
+
+    def _position(self, label_id: int) -> int:
+        return int(np.searchsorted(self._ids[: self._size], label_id))
+
+    def _columns(self) -> tuple[NDArray[np.generic], ...]:
+        return (self._ids, self._states, self._skills, self._parameters, self._values, self._targets)
+
+    def _grow(self) -> None:
+        self._ids, self._states, self._skills, self._parameters, self._values, self._targets = (
+            np.concatenate([self._ids, np.zeros_like(self._ids)]),
+            np.concatenate([self._states, np.zeros_like(self._states)]),
+            np.concatenate([self._skills, np.zeros_like(self._skills)]),
+            np.concatenate([self._parameters, np.zeros_like(self._parameters)]),
+            np.concatenate([self._values, np.zeros_like(self._values)]),
+            np.concatenate([self._targets, np.zeros_like(self._targets)]),
+        )

@@ -1,0 +1,284 @@
+"""SEED: skill-based learning from human evaluative feedback (paper, section III and Algorithm 1).
+
+Three learners share each batch: the critic H_theta regresses the labels (eq. 1), the skill actor pi_phi and the
+parameter actors pi_psi climb it under an entropy bonus (eq. 2 and 3), both temperatures are learned. There is no
+bootstrapping: the target of the critic is the label, so no discount and no target network appear.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+
+from agent import checkpoint, losses
+from agent.algorithm import AgentError, CheckpointError, Label, Problem, Suggestion
+from agent.config import SeedSettings
+from agent.encoding import Encoder
+from agent.networks import Layout, Networks
+from agent.proposing import choose
+from agent.replay import Replay
+from robot_adapters.base import Array
+
+
+class Seed:
+    """Implements `agent.algorithm.Algorithm`.
+
+    Proposing and training draw from separate random states: with the same seed, labels in the same order and the same
+    number of updates, proposals are the same whenever the updates happened.
+    """
+
+    def __init__(self, problem: Problem, settings: SeedSettings, seed: int) -> None:
+        self._settings = settings
+        self._encoder = Encoder(problem)
+        initial, proposing, training, drawing = np.random.SeedSequence(seed).spawn(4)
+        self._proposing = _generator(proposing)
+        self._training = _generator(training)
+        self._drawing = np.random.default_rng(drawing)
+        layout = Layout(self._encoder.state_size, self._encoder.parameter_counts)
+        self._networks = Networks(
+            layout,
+            hidden=[settings.hidden_size] * settings.hidden_layers,
+            critics=settings.critics,
+            initial_temperature=settings.initial_temperature,
+            generator=_generator(initial),
+        )
+        # every loss reaches its own weights only, so one optimiser and one backward pass serve them all
+        self._optimiser = torch.optim.Adam(self._networks.parameters(), lr=settings.learning_rate, fused=True)
+        self._skill_entropy_target = settings.skill_entropy * math.log(layout.skills)
+        self._parameter_entropy_target = settings.parameter_entropy * self._networks.mask.sum(dim=-1)
+        self._replay = Replay(layout.state_size, layout.width)
+        self._forgotten: set[int] = set()
+        self._labels_seen = 0
+        self._owed = 0
+        self._spare = 0
+        self.policy_version = 0
+        self.last_label_id = 0
+
+    @property
+    def owed_updates(self) -> int:
+        """Gradient steps that the schedule asks for and that are not yet worked off."""
+        return self._owed
+
+    @property
+    def spare_updates(self) -> int:
+        """Gradient steps beyond the owed ones that fresh labels allow while a person thinks."""
+        return self._spare
+
+    def propose(self, state: Array, *, deterministic: bool = False) -> Suggestion:
+        """Suggest a call for state (n,).
+
+        Raises:
+            AgentError: the state has the wrong shape or holds a value that is not finite.
+        """
+        choice = choose(self._networks, self._encoder.state(state), self._proposing, deterministic=deterministic)
+        names = self._encoder.skill_names
+        return Suggestion(
+            call=self._encoder.call(choice.skill, choice.parameters),
+            predicted_feedback=choice.predicted,
+            skill_probabilities={name: float(p) for name, p in zip(names, choice.probabilities, strict=True)},
+            policy_version=self.policy_version,
+        )
+
+    def add(self, labels: Sequence[Label]) -> None:
+        """Take labels into the replay and owe their gradient steps. Each is taken once.
+
+        Raises:
+            AgentError: a label doesn't fit the task. None of `labels` was taken.
+        """
+        settings = self._settings
+        for label in self._remember(labels):
+            self.last_label_id = max(self.last_label_id, label.id)
+            self._labels_seen += 1
+            if self._labels_seen % settings.train_frequency == 0:
+                self._owed += settings.gradient_steps
+            self._spare += settings.think_time_updates
+
+    def restore(self, labels: Sequence[Label]) -> None:
+        """Fill the replay anew, after `load`: labels up to `last_label_id` owe no updates, newer ones do.
+
+        Raises:
+            AgentError: a label doesn't fit the task.
+        """
+        self._replay.clear()
+        self._forgotten.clear()
+        self._remember([label for label in labels if label.id <= self.last_label_id])
+        self.add([label for label in labels if label.id > self.last_label_id])
+
+    def forget(self, label_id: int) -> None:
+        """Take an undone label out of the replay; unknown ids are ignored."""
+        if label_id in self._replay:
+            self._replay.forget(label_id)
+            self._forgotten.add(label_id)
+
+    def update(self) -> Mapping[str, float] | None:
+        """One gradient step on critic, actors and temperatures; None where there is nothing to learn from yet.
+
+        Raises:
+            AgentError: the losses are no longer finite. The networks are as before this step.
+        """
+        if not len(self._replay):
+            self._owed = self._spare = 0  # the labels that owed them were undone
+            return None
+        metrics = self._step()
+        self.policy_version += 1
+        if self._owed:
+            self._owed -= 1
+        elif self._spare:
+            self._spare -= 1
+        return metrics
+
+    def _step(self) -> Mapping[str, float]:
+        networks = self._networks
+        batch = self._replay.sample(self._settings.batch_size, self._drawing)
+        states, skills, parameters, targets = map(
+            torch.from_numpy, (batch.states, batch.skills, batch.parameters, batch.targets)
+        )
+
+        # eq. 1
+        critic_loss = losses.critic_loss(networks.predict(states, skills, parameters), targets)
+
+        # one x_a ~ pi_psi(.|s, a) for every skill serves eq. 2 and eq. 3
+        log_pi = networks.skill_log_probabilities(states)
+        mean, log_std = networks.parameter_distributions(states)
+        noise = torch.randn(mean.shape, generator=self._training)
+        imagined, log_pi_x = losses.sample_parameters(mean, log_std, networks.mask, noise)
+        predicted = networks.predict_every_skill(states, imagined)
+        skill_temperature = networks.log_skill_temperature.exp()
+        parameter_temperature = networks.log_parameter_temperature.exp()
+        skill_loss = losses.skill_actor_loss(log_pi, predicted, skill_temperature)
+        parameter_loss = losses.parameter_actor_loss(log_pi, log_pi_x, predicted, parameter_temperature)
+
+        temperature_loss = losses.skill_temperature_loss(
+            networks.log_skill_temperature, log_pi, self._skill_entropy_target
+        ) + losses.parameter_temperature_loss(
+            networks.log_parameter_temperature, log_pi, log_pi_x, self._parameter_entropy_target
+        )
+
+        total = critic_loss + skill_loss + parameter_loss + temperature_loss
+        if not torch.isfinite(total):
+            raise AgentError(
+                f"training diverged at gradient step {self.policy_version}",
+                remedy="load the last checkpoint, or start anew with a lower learning_rate",
+            )
+        self._optimiser.zero_grad()
+        total.backward()  # type: ignore[no-untyped-call]
+        self._optimiser.step()
+
+        with torch.no_grad():
+            values = torch.stack(
+                [
+                    critic_loss / self._settings.critics,
+                    skill_loss,
+                    parameter_loss,
+                    skill_temperature,
+                    parameter_temperature,
+                    losses.skill_entropy(log_pi).mean(),
+                    -(log_pi.exp().T * log_pi_x).sum(dim=0).mean(),
+                ]
+            )
+        return dict(zip(METRICS, values.tolist(), strict=True))
+
+    def save(self, path: Path) -> None:
+        """Write networks, optimiser, temperatures, random states and counters atomically. The replay isn't written."""
+        arrays: dict[str, torch.Tensor] = {
+            "random.proposing": self._proposing.get_state(),
+            "random.training": self._training.get_state(),
+        }
+        for name, tensor in self._networks.named_parameters():
+            arrays[f"network.{name}"] = tensor.detach()
+            for key, value in self._optimiser.state.get(tensor, {}).items():
+                arrays[f"adam.{key}.{name}"] = value
+        state = {
+            "drawing": self._drawing.bit_generator.state,
+            "policy_version": self.policy_version,
+            "last_label_id": self.last_label_id,
+            "labels_seen": self._labels_seen,
+            "owed": self._owed,
+            "spare": self._spare,
+        }
+        content = {name: tensor.numpy() for name, tensor in arrays.items()}
+        checkpoint.write(path, checkpoint.Checkpoint(self._fingerprint(), state, content))
+
+    def load(self, path: Path) -> None:
+        """Read what `save` wrote. The replay is left as it is: `restore` follows.
+
+        Raises:
+            CheckpointError: it is damaged or belongs to something else. Nothing has changed.
+        """
+        read = checkpoint.read(path, self._fingerprint())
+        tensors = {name: torch.from_numpy(array) for name, array in read.arrays.items()}
+        try:
+            drawing = np.random.default_rng(0)
+            drawing.bit_generator.state = read.state["drawing"]
+            proposing = torch.Generator().set_state(tensors["random.proposing"])
+            training = torch.Generator().set_state(tensors["random.training"])
+            counters = {
+                name: int(read.state[name])
+                for name in ("policy_version", "last_label_id", "labels_seen", "owed", "spare")
+            }
+            parameters = dict(self._networks.named_parameters())
+            weights = {name: tensors[f"network.{name}"].view_as(value) for name, value in parameters.items()}
+            moments = {
+                name: {key: tensors[f"adam.{key}.{name}"] for key in ADAM_STATE}
+                for name in parameters
+                if counters["policy_version"]
+            }
+        except (KeyError, TypeError, ValueError, RuntimeError) as error:
+            raise CheckpointError(
+                f"{path} lacks or garbles {error}",
+                remedy="use an older checkpoint, or rebuild the learner from the labels",
+            ) from error
+
+        with torch.no_grad():
+            for name, value in parameters.items():
+                value.copy_(weights[name])
+        self._optimiser.state.clear()
+        for name, state in moments.items():
+            self._optimiser.state[parameters[name]] = state
+        self._drawing, self._proposing, self._training = drawing, proposing, training
+        self.policy_version, self.last_label_id = counters["policy_version"], counters["last_label_id"]
+        self._labels_seen, self._owed, self._spare = counters["labels_seen"], counters["owed"], counters["spare"]
+
+    def _remember(self, labels: Sequence[Label]) -> list[Label]:
+        """Put those labels into the replay that are new to it; return them in ascending order."""
+        fresh = {
+            label.id: label for label in labels if label.id not in self._replay and label.id not in self._forgotten
+        }
+        ordered = [fresh[label_id] for label_id in sorted(fresh)]
+        penalty = self._settings.affordance_penalty
+        for entry in [self._encoder.entry(label, affordance_penalty=penalty) for label in ordered]:
+            self._replay.add(entry)
+        return ordered
+
+    def _fingerprint(self) -> Mapping[str, Any]:
+        settings = self._settings
+        return {
+            "algorithm": "seed",
+            **self._encoder.fingerprint(),
+            "hidden": [settings.hidden_size] * settings.hidden_layers,
+            "critics": settings.critics,
+        }
+
+
+METRICS = (
+    "critic_loss",
+    "skill_actor_loss",
+    "parameter_actor_loss",
+    "skill_temperature",
+    "parameter_temperature",
+    "skill_entropy",
+    "parameter_entropy",
+)
+"""What `Seed.update` reports, in order. Entropies in nats; a parameter's is over its range scaled to [-1, 1]."""
+
+ADAM_STATE = ("step", "exp_avg", "exp_avg_sq")
+"""What torch's Adam keeps of each parameter."""
+
+
+def _generator(seed: np.random.SeedSequence) -> torch.Generator:
+    return torch.Generator().manual_seed(int(seed.generate_state(1, np.uint32)[0]))
