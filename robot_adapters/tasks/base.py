@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Literal, Protocol
 
 import numpy as np
 
@@ -12,12 +12,40 @@ from robot_adapters.base import Array, SafetyViolation, Scene, SkillCall, SkillS
 
 @dataclass(frozen=True)
 class StateField:
-    """A named part of the state vector, e.g. `block_a_position` of shape (3,) in m."""
+    """A named part of the state vector, e.g. `block_a_position` of shape (3,) in m.
+
+    low, high: the range that each component usually stays in, for scaling only; empty means -1 to 1.
+    """
 
     name: str
     size: int
     unit: str
     description: str = ""
+    low: tuple[float, ...] = ()
+    high: tuple[float, ...] = ()
+
+
+def state_bounds(fields: tuple[StateField, ...]) -> tuple[Array, Array]:
+    """(n,) usual lows and (n,) usual highs of the whole state vector."""
+    low = [v for f in fields for v in (f.low or (-1.0,) * f.size)]
+    high = [v for f in fields for v in (f.high or (1.0,) * f.size)]
+    return np.array(low, dtype=np.float64), np.array(high, dtype=np.float64)
+
+
+@dataclass(frozen=True)
+class ObjectSpec:
+    """Something an adapter puts in the scene or draws.
+
+    shape: `block` is a movable cube that `Scene.objects` carries; `area` is an immaterial marked sphere.
+    half_size: half the cube's edge, or the sphere's radius, m. colour: RGB, each 0 to 1.
+    fixed: (x, y, z) m, robot base frame, of what never moves; None where `sample_layout` places it.
+    """
+
+    name: str
+    shape: Literal["block", "area"]
+    half_size: float
+    colour: tuple[float, float, float]
+    fixed: tuple[float, float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -37,6 +65,8 @@ class Task(Protocol):
     state_fields: tuple[StateField, ...]
     skills: tuple[SkillSpec, ...]
     subgoals: tuple[Subgoal, ...]
+    objects: tuple[ObjectSpec, ...]
+    """What is in the scene; adapters also draw the areas, which trainers need to see and agents are never told."""
     table_height: float
     """z of the table's surface, m, robot base frame."""
     horizon: int
