@@ -1,0 +1,96 @@
+"""Pinhole camera: base-frame points to pixels, and the overlay of a skill call that a trainer judges."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from robot_adapters.base import Array, CameraCalibration, CameraOverlay, SkillCall, SkillSpec
+
+BAR_LENGTH = 0.08  # m; the Panda's fingers open this far, so the bar is as wide as what fits between them
+NEAREST = 0.01  # m in front of the lens; a point nearer (or behind) has no pixel
+
+
+def project(calibration: CameraCalibration, points: Array) -> tuple[Array, Array]:
+    """(n, 3) points, m, robot base frame -> ((n, 2) pixels, (n,) depths in m along the optical axis).
+
+    Pixels are (u right, v down), the origin at the top-left corner of the top-left pixel, so a pixel's centre is at
+    +0.5. A point behind the lens has a depth below zero and NaN pixels.
+    """
+    points = np.atleast_2d(np.asarray(points, dtype=np.float64))
+    camera = points @ calibration.camera_from_base[:3, :3].T + calibration.camera_from_base[:3, 3]
+    depth = camera[:, 2]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        homogeneous = (camera / depth[:, None]) @ calibration.intrinsics.T
+    pixels = np.where(depth[:, None] > NEAREST, homogeneous[:, :2], np.nan)
+    return pixels, depth
+
+
+def closing_direction(yaw: float) -> Array:
+    """(3,) unit vector, base frame, along which the fingers close. At yaw 0 that is the base's y axis."""
+    return np.array([-math.sin(yaw), math.cos(yaw), 0.0])
+
+
+def push_vector(direction: float, delta: float) -> Array:
+    """(3,) m, base frame: where a push goes. `direction` below 0 is along x, otherwise along y (`SkillSpec`)."""
+    return np.array([delta, 0.0, 0.0]) if direction < 0 else np.array([0.0, delta, 0.0])
+
+
+def overlay(
+    calibration: CameraCalibration, call: SkillCall, spec: SkillSpec, table_height: float, *, yaw: float = 0.0
+) -> CameraOverlay:
+    """The call drawn for one camera: dot, line, gripper bar and ring, in pixels of its full-size image.
+
+    Args:
+        calibration: of the camera whose image is drawn on.
+        call: the skill with its parameters.
+        spec: its spec, which names the parameters.
+        table_height: z of the table, m, base frame; where the drop line ends.
+        yaw: the gripper's angle about z, rad, that the skill will use where `spec` has no parameter `yaw`.
+    """
+    values = call.named(spec)
+    if not {"x", "y", "z"} <= values.keys():
+        return CameraOverlay()
+    dot = np.array([values["x"], values["y"], values["z"]])
+    half_bar = closing_direction(values.get("yaw", yaw)) * BAR_LENGTH / 2
+    pushes = "delta" in values
+    if pushes:
+        end = dot + push_vector(values.get("direction", 0.0), values["delta"])
+    else:
+        end = np.array([dot[0], dot[1], table_height])
+    pixels, depth = project(calibration, np.stack([dot, end, dot - half_bar, dot + half_bar]))
+    if bool((depth <= NEAREST).any()):
+        return CameraOverlay(in_view=False)
+    at = [(float(u), float(v)) for u, v in pixels]
+    return CameraOverlay(
+        dot=at[0],
+        line=(at[0], at[1]),
+        arrow=pushes,
+        bar=(at[2], at[3]),
+        ring=None if pushes else at[1],
+        in_view=0 <= at[0][0] <= calibration.width and 0 <= at[0][1] <= calibration.height,
+    )
+
+
+def look_at(
+    eye: Array, target: Array, *, vertical_field_of_view: float, width: int, height: int
+) -> CameraCalibration:
+    """An ideal camera at `eye` (3,) that looks at `target` (3,), both m in the base frame, with z up in its image.
+
+    `vertical_field_of_view` is in radians. For adapters without a calibrated or simulated camera.
+    """
+    forward = (target - eye) / np.linalg.norm(target - eye)
+    right = np.cross(forward, [0.0, 0.0, 1.0])
+    right /= np.linalg.norm(right)
+    rotation = np.stack([right, np.cross(forward, right), forward])
+    transform = np.eye(4)
+    transform[:3, :3] = rotation
+    transform[:3, 3] = -rotation @ eye
+    return CameraCalibration(width, height, intrinsics(vertical_field_of_view, width, height), transform)
+
+
+def intrinsics(vertical_field_of_view: float, width: int, height: int) -> Array:
+    """(3, 3) in pixels of an ideal camera with square pixels; `vertical_field_of_view` in radians."""
+    focal = height / 2 / math.tan(vertical_field_of_view / 2)
+    return np.array([[focal, 0.0, width / 2], [0.0, focal, height / 2], [0.0, 0.0, 1.0]])

@@ -1,0 +1,44 @@
+"""The robosuite adapter: a simulated Panda at a table. Importing this loads no simulator; `FACTORY` does when called."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from pydantic import BaseModel, ConfigDict, Field
+
+if TYPE_CHECKING:
+    from robot_adapters.base import Adapter
+
+
+class RobosuiteSettings(BaseModel):
+    """Settings of the robosuite adapter."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    jpeg_quality: int = Field(90, ge=30, le=100, description="JPEG quality of the images that trainers judge.")
+    live_jpeg_quality: int = Field(70, ge=30, le=100, description="JPEG quality of the live video while a skill runs.")
+
+
+class RobosuiteFactory:
+    """Builds the adapter. `AdapterFactory` of the entry point `robosuite`."""
+
+    name = "robosuite"
+    description = "A Franka Panda at a table, simulated by robosuite and MuJoCo, seen by two cameras."
+    simulated = True
+    tasks: tuple[str, ...] = ("reaching", "stacking")
+    settings: type[BaseModel] = RobosuiteSettings
+
+    def __call__(self, task: str, settings: BaseModel) -> Adapter:
+        """Build the adapter; takes a few seconds, most of it loading the simulator.
+
+        Raises:
+            Unavailable: robosuite or software graphics can't be had; the remedy says what to install or set.
+        """
+        # here and not above: the server lists adapters without loading a simulator
+        from robot_adapters.registry import task as task_by_name  # noqa: PLC0415
+        from robot_adapters.robosuite.adapter import RobosuiteAdapter  # noqa: PLC0415
+
+        return RobosuiteAdapter(task_by_name(task), RobosuiteSettings.model_validate(settings.model_dump()))
+
+
+FACTORY = RobosuiteFactory()

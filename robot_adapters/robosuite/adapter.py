@@ -1,0 +1,129 @@
+"""The robosuite adapter: a task staged in simulation, seen by two cameras, moved by `skills.py`."""
+
+from __future__ import annotations
+
+import time
+import uuid
+from collections.abc import Mapping
+
+import numpy as np
+
+from robot_adapters.base import (
+    AdapterInfo,
+    CameraFrame,
+    CameraOverlay,
+    Observation,
+    SkillCall,
+    SkillResult,
+    SkillSpec,
+    StepHook,
+    StopCheck,
+    check_call,
+)
+from robot_adapters.projection import overlay
+from robot_adapters.robosuite import RobosuiteSettings
+from robot_adapters.robosuite.graphics import choose_backend, load_robosuite
+from robot_adapters.skills import clear_yaw, run_skill
+from robot_adapters.tasks.base import Task
+
+
+class RobosuiteAdapter:
+    """A Panda in simulation (`Adapter`). Use it on the thread that made it: its OpenGL context belongs to that one."""
+
+    def __init__(self, task: Task, settings: RobosuiteSettings) -> None:
+        """Load the simulator, draw a first picture, and start an episode with seed 0.
+
+        Raises:
+            Unavailable: simulator or graphics can't be had.
+        """
+        backend, chosen_by = choose_backend()
+        load_robosuite()
+        # only now: MuJoCo binds to its OpenGL at import
+        from robot_adapters.robosuite.cameras import HEIGHT, WIDTH, Cameras  # noqa: PLC0415
+        from robot_adapters.robosuite.scene import CAMERAS, CONTROL_HZ  # noqa: PLC0415
+        from robot_adapters.robosuite.simulator import Simulator  # noqa: PLC0415
+
+        self._task = task
+        self._settings = settings
+        self.simulator = Simulator(task.objects)
+        self.cameras = Cameras(self.simulator.model, self.simulator.data)
+        self._calibrations = {name: self.cameras.calibration(name) for name in CAMERAS}
+        self._observation: Observation | None = None
+        self.info = AdapterInfo(
+            name="robosuite",
+            simulated=True,
+            cameras=tuple(CAMERAS),
+            image_size=(WIDTH, HEIGHT),
+            control_hz=float(CONTROL_HZ),
+            details={"graphics": backend, "graphics_chosen_by": chosen_by, "robot": "Panda", "controller": "OSC_POSE"},
+        )
+        self.reset(0)
+
+    def reset(self, seed: int | None = None) -> Observation:
+        """Start an episode; the same seed gives the same start. None draws a fresh one."""
+        rng = np.random.default_rng(seed)
+        self._observation = None
+        self.simulator.reset(self._task.sample_layout(rng), rng)
+        return self.observe()
+
+    def observe(self) -> Observation:
+        """State and images now. As long as nothing has moved it is the same observation, rendered once."""
+        if self._observation is None:
+            frames = {name: self.cameras.frame(name, self._settings.jpeg_quality) for name in self.info.cameras}
+            state = self._task.state(self.simulator.scene())
+            self._observation = Observation(uuid.uuid4().hex, state, frames, time.time())
+        return self._observation
+
+    def execute(self, call: SkillCall, *, should_stop: StopCheck, on_step: StepHook) -> SkillResult:
+        """Run one skill to its end, or until `should_stop()`.
+
+        Raises:
+            InvalidCall: the call doesn't fit the task. Nothing has moved.
+        """
+        spec = check_call(call, self._task.skills)
+        self._observation = None
+        end, steps = run_skill(
+            self.simulator, call, spec, should_stop=should_stop, on_step=on_step, yaw=self._yaw(call, spec)
+        )
+        scene = self.simulator.scene()
+        return SkillResult(end, steps, self._task.success(scene), self._task.violations(scene))
+
+    def overlays(self, call: SkillCall) -> Mapping[str, CameraOverlay]:
+        """The call drawn for every camera, with the yaw that the gripper would take.
+
+        Raises:
+            InvalidCall: the call doesn't fit the task.
+        """
+        spec = check_call(call, self._task.skills)
+        yaw = self._yaw(call, spec)
+        return {
+            name: overlay(calibration, call, spec, self._task.table_height, yaw=yaw)
+            for name, calibration in self._calibrations.items()
+        }
+
+    def frame(self, camera: str) -> CameraFrame:
+        """One picture now, for live video."""
+        return self.cameras.frame(camera, self._settings.live_jpeg_quality)
+
+    def success(self) -> bool:
+        """Whether the task is solved now."""
+        return self._task.success(self.simulator.scene())
+
+    def close(self) -> None:
+        """Release simulator and graphics."""
+        self.cameras.close()
+        self.simulator.close()
+
+    def _yaw(self, call: SkillCall, spec: SkillSpec) -> float:
+        """The gripper's angle, rad, for a call that doesn't say: clear of neighbours to pick, else as it is."""
+        present = self.simulator.pose()[1]
+        if call.skill != "pick":
+            return present
+        values = call.named(spec)
+        target = np.array([values["x"], values["y"], values["z"]])
+        objects = list(self.simulator.scene().objects.values())
+        if not objects:
+            return present
+        # what lies nearest the target is what is picked, the others are in the way
+        nearest = min(range(len(objects)), key=lambda i: float(np.linalg.norm(objects[i] - target)))
+        return clear_yaw(target, objects[:nearest] + objects[nearest + 1 :])

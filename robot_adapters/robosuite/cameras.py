@@ -1,0 +1,114 @@
+"""Renders the two views, and calibrates them from MuJoCo's own cameras. Everything here belongs to one thread."""
+
+from __future__ import annotations
+
+import io
+import math
+import os
+import time
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from robot_adapters.base import CameraCalibration, CameraFrame, Unavailable
+from robot_adapters.projection import intrinsics
+from robot_adapters.robosuite.graphics import remedy
+from robot_adapters.robosuite.scene import BASE, CAMERAS
+
+WIDTH, HEIGHT = 640, 480
+
+# MuJoCo's cameras look along -z with y up; OpenCV's along z with y down
+OPENCV = np.diag([1.0, -1.0, -1.0])
+
+# what costs software OpenGL most and tells a trainer least. Shadows and reflections draw the scene again
+OFF = (mujoco.mjtRndFlag.mjRND_SHADOW, mujoco.mjtRndFlag.mjRND_REFLECTION, mujoco.mjtRndFlag.mjRND_HAZE)
+
+VISUAL_GEOMS = 1  # robosuite's group of what is for looks; 0 is for collisions
+
+
+class Cameras:
+    """The OpenGL context with the scene in it. Create, use and close it on one thread: OpenGL contexts belong to one."""
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        """Make a context and draw once.
+
+        Raises:
+            Unavailable: there is no OpenGL, or it draws nothing but black.
+        """
+        self._model, self._data = model, data
+        model.vis.global_.offwidth, model.vis.global_.offheight = WIDTH, HEIGHT
+        model.vis.quality.offsamples = 0
+        model.vis.quality.shadowsize = 0
+        backend = os.environ.get("MUJOCO_GL", "")
+        try:
+            self._gl = mujoco.GLContext(WIDTH, HEIGHT)
+            self._gl.make_current()
+            self._context = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100)
+        except Exception as error:  # whatever a driver raises, the reader needs the same remedy
+            raise Unavailable(f"no OpenGL context with MUJOCO_GL={backend}: {error}", remedy=remedy(backend)) from error
+        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._context)
+        self._scene = mujoco.MjvScene(model, maxgeom=1000)
+        for flag in OFF:
+            self._scene.flags[flag] = 0
+        self._option = mujoco.MjvOption()
+        self._option.geomgroup[:] = 0
+        self._option.geomgroup[VISUAL_GEOMS] = 1
+        self._option.sitegroup[:] = 0
+        self._option.sitegroup[VISUAL_GEOMS] = 1
+        self._camera = mujoco.MjvCamera()
+        self._camera.type = mujoco.mjtCamera.mjCAMERA_FIXED
+        self._pixels = np.empty((HEIGHT, WIDTH, 3), dtype=np.uint8)
+        refuse_black(self.render(next(iter(CAMERAS))), backend)
+
+    def render(self, camera: str, *, segmentation: bool = False) -> NDArray[np.uint8]:
+        """(480, 640, 3) RGB picture now, top row first; with `segmentation`, colours that `geoms` understands."""
+        self._camera.fixedcamid = self._model.camera(camera).id
+        mujoco.mjv_updateScene(
+            self._model, self._data, self._option, None, self._camera, mujoco.mjtCatBit.mjCAT_ALL, self._scene
+        )
+        self._scene.flags[mujoco.mjtRndFlag.mjRND_SEGMENT] = segmentation
+        self._scene.flags[mujoco.mjtRndFlag.mjRND_IDCOLOR] = segmentation
+        viewport = mujoco.MjrRect(0, 0, WIDTH, HEIGHT)
+        mujoco.mjr_render(viewport, self._scene, self._context)
+        mujoco.mjr_readPixels(self._pixels, None, viewport, self._context)
+        return np.ascontiguousarray(self._pixels[::-1])
+
+    def geoms(self, camera: str) -> NDArray[np.int64]:
+        """(480, 640) the id of the MuJoCo geom seen at each pixel, top row first; -1 where there is none."""
+        picture = self.render(camera, segmentation=True).astype(np.int64)
+        index = picture[..., 0] + (picture[..., 1] << 8) + (picture[..., 2] << 16) - 1
+        known = np.full(self._scene.ngeom + 1, -1, dtype=np.int64)
+        for drawn in self._scene.geoms[: self._scene.ngeom]:
+            if drawn.segid >= 0 and drawn.objtype == mujoco.mjtObj.mjOBJ_GEOM:
+                known[drawn.segid] = drawn.objid
+        return known[np.where((index >= 0) & (index < self._scene.ngeom), index, -1)]
+
+    def frame(self, camera: str, quality: int) -> CameraFrame:
+        """A JPEG now."""
+        taken_at = time.time()
+        buffer = io.BytesIO()
+        Image.fromarray(self.render(camera)).save(buffer, "JPEG", quality=quality)
+        return CameraFrame(camera, buffer.getvalue(), WIDTH, HEIGHT, taken_at)
+
+    def calibration(self, camera: str) -> CameraCalibration:
+        """Where the camera is, from MuJoCo itself."""
+        identity = self._model.camera(camera).id
+        rotation = OPENCV @ self._data.cam_xmat[identity].reshape(3, 3).T
+        transform = np.eye(4)
+        transform[:3, :3] = rotation
+        transform[:3, 3] = -rotation @ (self._data.cam_xpos[identity] - BASE)
+        field_of_view = math.radians(float(self._model.cam_fovy[identity]))
+        return CameraCalibration(WIDTH, HEIGHT, intrinsics(field_of_view, WIDTH, HEIGHT), transform)
+
+    def close(self) -> None:
+        """Free the context, on the thread that made it."""
+        self._context.free()
+        self._gl.free()
+
+
+def refuse_black(picture: NDArray[np.uint8], backend: str) -> None:
+    """Raise `Unavailable` if the picture (h, w, 3) shows nothing: some drivers start and then draw black."""
+    if int(picture.max()) - int(picture.min()) < 8:
+        raise Unavailable(f"OpenGL draws an empty picture with MUJOCO_GL={backend}", remedy=remedy(backend))

@@ -1,0 +1,123 @@
+"""The simulated table: a Panda, a task's blocks and marked areas, and two cameras, as a robosuite environment."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from robosuite.controllers import load_composite_controller_config
+from robosuite.environments.manipulation.manipulation_env import ManipulationEnv
+from robosuite.models.arenas import TableArena
+from robosuite.models.objects import BoxObject
+from robosuite.models.tasks import ManipulationTask
+from robosuite.utils.mjcf_utils import new_site
+
+from robot_adapters.base import Array
+from robot_adapters.tasks.base import ObjectSpec
+
+BASE = np.array([-0.56, 0.0, 0.912])
+"""(3,) the robot's base, m, robosuite world frame; the axes are parallel."""
+
+TABLE = 0.8
+"""z of the table, m, robosuite world frame."""
+
+CONTROL_HZ = 20
+OPEN = np.array([0.04, -0.04])  # finger joints, m
+
+# left and right of the robot, like the paper's page; (.80, .58, 1.50) sees the whole workspace past the arm
+CAMERAS: Mapping[str, tuple[float, float, float]] = {"left": (0.80, 0.58, 1.50), "right": (0.80, -0.58, 1.50)}
+CAMERA_TARGET = (-0.02, 0.0, 0.83)
+
+# behind the cameras or never in their view, but drawn (slowly) all the same by software OpenGL
+UNSEEN = ("wall_",)
+
+
+class Tabletop(ManipulationEnv):  # type: ignore[misc]
+    """robosuite environment of any task whose objects are blocks and areas. Positions are in the world frame here.
+
+    Instead of sampling, a reset puts things where `layout` says: block name -> (3,) m, and the arm's joints (7,) rad.
+    """
+
+    def __init__(self, objects: tuple[ObjectSpec, ...]) -> None:
+        self.specs = objects
+        self.layout: dict[str, Array] = {}
+        self.blocks: dict[str, Any] = {}
+        controller = load_composite_controller_config(robot="Panda")
+        # absolute set-points in the world frame: what is commanded is what skills.py says, unscaled
+        controller["body_parts"]["right"].update(input_type="absolute", input_ref_frame="world", kp=150)
+        super().__init__(
+            robots="Panda",
+            controller_configs=controller,
+            initialization_noise=None,
+            use_camera_obs=False,
+            has_renderer=False,
+            has_offscreen_renderer=False,
+            renderer="mujoco",
+            control_freq=CONTROL_HZ,
+            lite_physics=True,
+            ignore_done=True,
+            hard_reset=False,
+        )
+
+    def reward(self, action: Any) -> float:  # noqa: ARG002  robosuite's signature
+        """Nothing: what is good, people say."""
+        return 0.0
+
+    def _load_model(self) -> None:
+        super()._load_model()
+        robot = self.robots[0].robot_model
+        arena = TableArena(table_full_size=(0.8, 0.8, 0.05), table_offset=(0, 0, TABLE))
+        robot.set_base_xpos(robot.base_xpos_offset["table"](0.8))
+        for geom in list(arena.worldbody.findall("geom")):
+            if geom.get("name", "").startswith(UNSEEN):
+                arena.worldbody.remove(geom)
+        for name, eye in CAMERAS.items():
+            arena.set_camera(name, pos=eye, quat=_look_at(np.array(eye), np.array(CAMERA_TARGET)))
+        self.blocks = {}
+        for spec in self.specs:
+            if spec.shape == "block":
+                self.blocks[spec.name] = BoxObject(
+                    name=spec.name, size=[spec.half_size] * 3, rgba=[*spec.colour, 1.0], rng=self.rng
+                )
+            elif spec.fixed is not None:
+                # a site is drawn and touches nothing
+                arena.worldbody.append(
+                    new_site(
+                        spec.name,
+                        type="sphere",
+                        pos=np.array(spec.fixed) + BASE,
+                        size=[spec.half_size],
+                        rgba=[*spec.colour, 0.45],
+                        group="1",
+                    )
+                )
+        self.model = ManipulationTask(
+            mujoco_arena=arena, mujoco_robots=[robot], mujoco_objects=list(self.blocks.values())
+        )
+
+    def _setup_observables(self) -> OrderedDict[str, Any]:
+        """None: robosuite would refresh them at every physics step; the simulator reads MuJoCo's arrays instead."""
+        return OrderedDict()
+
+    def _reset_internal(self) -> None:
+        super()._reset_internal()
+        # before, robosuite has put the arm at `init_qpos` and made controllers that refer to it
+        robot = self.robots[0]
+        self.sim.data.qpos[robot._ref_gripper_joint_pos_indexes["right"]] = OPEN  # noqa: SLF001
+        for name, block in self.blocks.items():
+            if name in self.layout:
+                self.sim.data.set_joint_qpos(block.joints[0], np.concatenate([self.layout[name], [1.0, 0.0, 0.0, 0.0]]))
+
+
+def _look_at(eye: Array, target: Array) -> Array:
+    """(4,) quaternion w, x, y, z of a MuJoCo camera (x right, y up, looking along -z) at `eye` that sees `target`."""
+    import mujoco  # noqa: PLC0415
+
+    back = (eye - target) / np.linalg.norm(eye - target)
+    right = np.cross([0.0, 0.0, 1.0], back)
+    right /= np.linalg.norm(right)
+    quaternion = np.zeros(4)
+    mujoco.mju_mat2Quat(quaternion, np.stack([right, np.cross(back, right), back], axis=1).flatten())
+    return quaternion
