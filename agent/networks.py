@@ -44,7 +44,7 @@ class StackedMLP(nn.Module):
         biases = [b.detach() for b in self.biases] if frozen else list(self.biases)
         h = x.expand(weights[0].shape[0], *x.shape)
         for weight, bias in zip(weights[:-1], biases[:-1], strict=True):
-            h = torch.relu(torch.baddbmm(bias, h, weight))
+            h = torch.baddbmm(bias, h, weight).relu_()  # in place: half the memory traffic
         return torch.baddbmm(biases[-1], h, weights[-1])
 
 
