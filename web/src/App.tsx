@@ -1,0 +1,30 @@
+// Which page the address names.
+import { useEffect } from "react";
+import { Header } from "./components/Header";
+import { ExperimentsPage } from "./pages/ExperimentsPage";
+import { TrainerPage } from "./pages/TrainerPage";
+import { Link, usePath } from "./router";
+
+export function App() {
+  const path = usePath();
+  const trainer = /^\/experiments\/(\d+)\/?$/.exec(path);
+  useEffect(() => {
+    if (!trainer) document.title = "SEED";
+  }, [trainer]);
+  if (trainer) return <TrainerPage key={trainer[1]} id={Number(trainer[1])} />;
+  if (path === "/" || path === "/experiments") return <ExperimentsPage />;
+  return (
+    <>
+      <Header />
+      <main className="page narrow">
+        <div className="empty">
+          <h1>There is no such page</h1>
+          <p>The address names nothing here.</p>
+          <Link to="/" className="button primary">
+            All experiments
+          </Link>
+        </div>
+      </main>
+    </>
+  );
+}

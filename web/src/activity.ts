@@ -1,0 +1,67 @@
+// What is going on now, in words.
+import { isOpen, pendingFor, type TrainerState, wordFor } from "./state";
+
+export interface Activity {
+  tone: "you" | "moving" | "busy" | "still" | "stopped";
+  text: string;
+}
+
+const still = (text: string): Activity => ({ tone: "still", text });
+const busy = (text: string): Activity => ({ tone: "busy", text });
+
+export function activity(state: TrainerState): Activity {
+  const { experiment } = state;
+  if (!experiment) return busy("Loading");
+  if (experiment.halted) return { tone: "stopped", text: "Emergency stop. Nothing moves until you re-arm." };
+  switch (experiment.lifecycle) {
+    case "created":
+      return experiment.phase === "evaluating" ? evaluating(state) : still("Not started yet");
+    case "paused":
+      return experiment.phase === "evaluating" ? evaluating(state) : still("Paused. Nothing moves.");
+    case "finished":
+      return experiment.phase === "evaluating" ? evaluating(state) : still("Finished");
+    case "failed":
+      return { tone: "stopped", text: experiment.failure ?? "Failed" };
+    case "archived":
+      return still("Archived");
+    case "running":
+      return running(state);
+  }
+}
+
+function running(state: TrainerState): Activity {
+  const { execution, proposal, experiment } = state;
+  if (execution) return { tone: "moving", text: `Executing ${execution.skill}, live video` };
+  if (experiment?.phase === "evaluating") return evaluating(state);
+  if (proposal && isOpen(proposal) && proposal.purpose !== "evaluation") return waiting(state);
+  switch (experiment?.phase) {
+    case "starting":
+      return busy("Starting the robot and the learner");
+    case "learning":
+      return busy("Learning from your feedback");
+    case "deciding":
+      return busy("Checking whether it may move");
+    case "executing":
+      return { tone: "moving", text: "Executing, live video" };
+    case "observing":
+      return busy("Looking at the scene");
+    default:
+      return busy("Thinking of a proposal");
+  }
+}
+
+function waiting(state: TrainerState): Activity {
+  if (state.experiment?.teacher) return busy(`The ${state.experiment.teacher} teacher is judging`);
+  const pending = state.proposal ? pendingFor(state, state.proposal.id) : null;
+  if (pending === null) return { tone: "you", text: "Waiting for you" };
+  return busy(
+    state.connection === "open"
+      ? `Sending “${wordFor(pending)}”`
+      : `“${wordFor(pending)}” is kept until the connection is back`,
+  );
+}
+
+function evaluating(state: TrainerState): Activity {
+  const rollouts = state.evaluation?.rollouts;
+  return busy(rollouts ? `Evaluating: ${state.evaluationDone} of ${rollouts} rollouts` : "Evaluating");
+}

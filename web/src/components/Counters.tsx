@@ -1,0 +1,33 @@
+import type { Experiment } from "../wire";
+
+/** Share of good among the feedback, in words. */
+export function goodShare({ feedback, good }: { feedback: number; good: number }): string {
+  return feedback === 0 ? "–" : `${Math.round((100 * good) / feedback)} %`;
+}
+
+export function Counters({ counters }: { counters: Experiment["counters"] }) {
+  return (
+    <section className="card" aria-label="Counters">
+      <dl className="counters">
+        <div>
+          <dt>Feedback</dt>
+          <dd data-testid="count-feedback">{counters.feedback}</dd>
+        </div>
+        <div>
+          <dt>Good share</dt>
+          <dd data-testid="count-good-share">{goodShare(counters)}</dd>
+        </div>
+        <div>
+          <dt>Successes</dt>
+          <dd data-testid="count-successes">{counters.successes}</dd>
+        </div>
+        <div>
+          <dt>Safety violations</dt>
+          <dd data-testid="count-violations" className={counters.violations > 0 ? "alarm" : undefined}>
+            {counters.violations}
+          </dd>
+        </div>
+      </dl>
+    </section>
+  );
+}

@@ -1,0 +1,87 @@
+// Good, Neutral, Bad: as buttons and as keys. One press is one click for the proposal that is drawn, never for the next.
+import { type KeyboardEvent as ReactKeyboardEvent, useEffect, useEffectEvent } from "react";
+import type { Value } from "../wire";
+import { dialogOpen } from "./Dialog";
+import { Cross, Dash, Tick } from "./icons";
+
+// In the order of the arrow keys, from left to right.
+const CHOICES = [
+  { value: -1, name: "Bad", testId: "bad", arrow: "←", number: "3", key: "ArrowLeft", Icon: Cross },
+  { value: 0, name: "Neutral", testId: "neutral", arrow: "↓", number: "2", key: "ArrowDown", Icon: Dash },
+  { value: 1, name: "Good", testId: "good", arrow: "→", number: "1", key: "ArrowRight", Icon: Tick },
+] as const;
+
+export interface JudgeBarProps {
+  /** Whether a click would count now. */
+  ready: boolean;
+  /** The click on its way for the drawn proposal. */
+  chosen: Value | null;
+  canUndo: boolean;
+  onJudge: (value: Value, pressedAt: number) => void;
+  onUndo: () => void;
+}
+
+function typing(target: EventTarget | null): boolean {
+  return target instanceof HTMLElement && target.matches("input, select, textarea, [contenteditable]");
+}
+
+function useJudgeKeys(props: JudgeBarProps): void {
+  const press = useEffectEvent((event: KeyboardEvent) => {
+    if (typing(event.target) || dialogOpen()) return;
+    const undo =
+      event.key.toLowerCase() === "u" ||
+      (event.key.toLowerCase() === "z" && (event.ctrlKey || event.metaKey));
+    if (undo && props.canUndo && !event.repeat) {
+      event.preventDefault();
+      props.onUndo();
+    }
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const choice = CHOICES.find(({ key, number }) => event.key === key || event.key === number);
+    if (!choice) return;
+    event.preventDefault();
+    // A held key repeats by itself: nobody has looked at what it would judge.
+    if (!event.repeat) props.onJudge(choice.value, event.timeStamp);
+  });
+  useEffect(() => {
+    const onKey = (event: KeyboardEvent) => press(event);
+    window.addEventListener("keydown", onKey);
+    return () => window.removeEventListener("keydown", onKey);
+  }, []);
+}
+
+/** Enter held down on a focused button would click it again and again. */
+function noRepeat(event: ReactKeyboardEvent): void {
+  if (event.repeat) event.preventDefault();
+}
+
+export function JudgeBar(props: JudgeBarProps) {
+  useJudgeKeys(props);
+  return (
+    <fieldset
+      className="judge"
+      aria-label="Judge this proposal"
+      data-idle={!props.ready && props.chosen === null}
+    >
+      {CHOICES.map(({ value, name, testId, arrow, number, key, Icon }) => (
+        <button
+          key={testId}
+          type="button"
+          className={testId}
+          data-testid={testId}
+          data-chosen={props.chosen === value}
+          aria-disabled={!props.ready}
+          aria-keyshortcuts={`${number} ${key}`}
+          onKeyDown={noRepeat}
+          onClick={(event) => props.onJudge(value, event.timeStamp)}
+        >
+          <Icon />
+          {name}
+          <span className="keys" aria-hidden="true">
+            <span className="key">{arrow}</span>
+            <span className="key">{number}</span>
+          </span>
+        </button>
+      ))}
+    </fieldset>
+  );
+}

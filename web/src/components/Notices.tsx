@@ -1,0 +1,32 @@
+import { useEffect } from "react";
+import type { Notice } from "../state";
+
+const READ_MS = 6000;
+
+/** Short news in a corner; errors and warnings stay until they are dismissed. */
+export function Notices({ notices, onDismiss }: { notices: Notice[]; onDismiss: (id: number) => void }) {
+  return (
+    <section className="notices" aria-live="polite" aria-label="News" data-testid="notices">
+      {notices.map((notice) => (
+        <Toast key={notice.id} notice={notice} onDismiss={onDismiss} />
+      ))}
+    </section>
+  );
+}
+
+function Toast({ notice, onDismiss }: { notice: Notice; onDismiss: (id: number) => void }) {
+  const passing = notice.tone === "info" || notice.tone === "good";
+  useEffect(() => {
+    if (!passing) return;
+    const timer = setTimeout(() => onDismiss(notice.id), READ_MS);
+    return () => clearTimeout(timer);
+  }, [passing, notice.id, onDismiss]);
+  return (
+    <div className="notice" data-tone={notice.tone}>
+      <p>{notice.text}</p>
+      <button type="button" aria-label="Dismiss" onClick={() => onDismiss(notice.id)}>
+        ×
+      </button>
+    </div>
+  );
+}

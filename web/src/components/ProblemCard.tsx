@@ -1,0 +1,21 @@
+import { Link } from "../router";
+import type { Problem } from "../wire";
+import { Header } from "./Header";
+
+/** A page that can't be shown, why, and what to do. */
+export function ProblemCard({ problem }: { problem: Problem }) {
+  return (
+    <>
+      <Header />
+      <main className="page narrow">
+        <div className="empty" role="alert">
+          <h1>{problem.title}</h1>
+          <p>{`${problem.detail} ${problem.remedy}`}</p>
+          <Link to="/" className="button primary">
+            All experiments
+          </Link>
+        </div>
+      </main>
+    </>
+  );
+}

@@ -1,0 +1,78 @@
+// What stands beside the views: counters, what the agent thinks, mode, chart, evaluation.
+import { useEffect, useState } from "react";
+import * as http from "../http";
+import type { Session } from "../session";
+import type { TrainerState } from "../state";
+import type { Experiment, Mode, Proposal } from "../wire";
+import { Counters } from "./Counters";
+import { Curve } from "./Curve";
+import type { Question } from "./Dialog";
+import { EvaluationPanel } from "./Evaluation";
+import { ModeSwitch } from "./ModeSwitch";
+import { Thought } from "./Thought";
+
+const ROLLOUTS = 10; // as in the paper's evaluations
+
+/** Whether the adapter is a simulator; unknown counts as no. */
+function useSimulated(adapter: string): boolean {
+  const [simulated, setSimulated] = useState(false);
+  useEffect(() => {
+    let gone = false;
+    http.adapterList().then(
+      (adapters) => gone || setSimulated(adapters.some((each) => each.name === adapter && each.simulated)),
+      () => undefined, // the panel just stays away
+    );
+    return () => {
+      gone = true;
+    };
+  }, [adapter]);
+  return simulated;
+}
+
+function obstacleTo(experiment: Experiment): string | null {
+  if (experiment.halted) return "Re-arm first.";
+  if (experiment.lifecycle === "running") return "Pause first: the rollouts use the same simulator.";
+  return ["created", "paused", "finished"].includes(experiment.lifecycle)
+    ? null
+    : "Not possible in this state.";
+}
+
+export interface SidePanelProps {
+  state: TrainerState;
+  experiment: Experiment;
+  proposal: Proposal | null;
+  session: Session;
+  onAsk: (question: Question) => void;
+}
+
+export function SidePanel({ state, experiment, proposal, session, onAsk }: SidePanelProps) {
+  const simulated = useSimulated(experiment.adapter);
+  const changeMode = (mode: Mode) => {
+    if (mode === "propose_only") void session.setMode(mode);
+    else
+      onAsk({
+        title: "Let approved skills move the robot?",
+        text: "From now on every proposal that is judged good runs on the robot at once. Check that nobody is within its reach.",
+        yes: "Execute approved",
+        testId: "mode-confirm",
+        act: () => void session.setMode(mode),
+      });
+  };
+  return (
+    <aside className="side" aria-label="About this experiment">
+      <Counters counters={experiment.counters} />
+      <Thought proposal={proposal} />
+      <ModeSwitch mode={experiment.mode} onChange={changeMode} />
+      <Curve curve={state.curve} />
+      {simulated && (
+        <EvaluationPanel
+          evaluation={state.evaluation}
+          done={state.evaluationDone}
+          running={experiment.phase === "evaluating"}
+          obstacle={obstacleTo(experiment)}
+          onEvaluate={() => void session.evaluate(ROLLOUTS)}
+        />
+      )}
+    </aside>
+  );
+}

@@ -1,0 +1,64 @@
+import { useState } from "react";
+import type { Session } from "../session";
+import type { Experiment, Verb } from "../wire";
+import type { Question } from "./Dialog";
+import { StatePill } from "./StatePill";
+import { Verbs } from "./Verbs";
+
+export interface TrainerTitleProps {
+  experiment: Experiment | null;
+  session: Session;
+  onAsk: (question: Question) => void;
+}
+
+/** What finishing means, asked before it is done. */
+export function finishQuestion(name: string, act: () => void): Question {
+  return {
+    title: "Finish this experiment?",
+    text: `“${name}” can't be resumed afterwards. Its data stay, and it can still be evaluated.`,
+    yes: "Finish",
+    danger: true,
+    testId: "finish-confirm",
+    act,
+  };
+}
+
+export function TrainerTitle({ experiment, session, onAsk }: TrainerTitleProps) {
+  const [busy, setBusy] = useState(false);
+  if (!experiment)
+    return (
+      <div className="title-row">
+        <h1>Loading</h1>
+      </div>
+    );
+  const run = async (verb: Verb) => {
+    setBusy(true);
+    await session.act(verb);
+    setBusy(false);
+  };
+  const facts = [
+    experiment.task,
+    experiment.adapter,
+    experiment.algorithm,
+    experiment.preset,
+    `seed ${experiment.seed}`,
+  ];
+  return (
+    <div className="title-row">
+      <div className="title-text">
+        <div className="title-line">
+          <h1>{experiment.name}</h1>
+          <StatePill experiment={experiment} />
+        </div>
+        <p className="soft">{facts.filter(Boolean).join(" · ")}</p>
+      </div>
+      <Verbs
+        experiment={experiment}
+        busy={busy}
+        onVerb={(verb) =>
+          verb === "finish" ? onAsk(finishQuestion(experiment.name, () => void run(verb))) : void run(verb)
+        }
+      />
+    </div>
+  );
+}

@@ -1,0 +1,39 @@
+// The verbs that an experiment's state allows (DESIGN.md section 6).
+import type { Experiment, Verb } from "../wire";
+
+type Shown = Exclude<Verb, "halt" | "rearm">;
+
+const NAMES: Record<Shown, string> = { start: "Start", pause: "Pause", resume: "Resume", finish: "Finish" };
+
+const ALLOWED: Record<Experiment["lifecycle"], Shown[]> = {
+  created: ["start"],
+  running: ["pause", "finish"],
+  paused: ["resume", "finish"],
+  failed: ["resume", "finish"],
+  finished: [],
+  archived: [],
+};
+
+export function Verbs(props: { experiment: Experiment; busy: boolean; onVerb: (verb: Shown) => void }) {
+  const { experiment } = props;
+  return (
+    <div className="actions">
+      {ALLOWED[experiment.lifecycle].map((verb) => {
+        const blocked = props.busy || (experiment.halted && (verb === "start" || verb === "resume"));
+        return (
+          <button
+            key={verb}
+            type="button"
+            className={verb === "start" || verb === "resume" ? "button primary" : "button"}
+            data-testid={verb}
+            aria-label={`${NAMES[verb]} ${experiment.name}`}
+            disabled={blocked}
+            onClick={() => props.onVerb(verb)}
+          >
+            {NAMES[verb]}
+          </button>
+        );
+      })}
+    </div>
+  );
+}

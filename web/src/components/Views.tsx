@@ -1,0 +1,75 @@
+// The two camera views of a proposal. Nothing is drawn before all its pictures are decoded; then all of it at once.
+import { useEffect, useLayoutEffect, useRef, useSyncExternalStore } from "react";
+import type { FrameSink } from "../frames";
+import type { ImageStore } from "../images";
+import type { Proposal } from "../wire";
+import { CameraView } from "./CameraView";
+
+/** The proposal whose pictures are on the screen: `proposal` once they are decoded, until then the one before. */
+export function useDrawn(
+  images: ImageStore,
+  proposal: Proposal | null,
+): { drawn: Proposal | null; failed: boolean } {
+  const version = useSyncExternalStore(images.subscribe, images.snapshot);
+  const before = useRef<Proposal | null>(null);
+  // biome-ignore lint/correctness/useExhaustiveDependencies: a new version may mean that a failed picture is due again
+  useEffect(() => {
+    for (const view of proposal?.views ?? []) images.want(view);
+  }, [images, proposal, version]);
+  const ready = proposal?.views.every((view) => images.get(view.image)) ?? false;
+  const drawn = ready ? proposal : before.current;
+  useLayoutEffect(() => {
+    before.current = drawn;
+  });
+  return { drawn, failed: proposal?.views.some((view) => images.failed(view.image)) ?? false };
+}
+
+export interface ViewsProps {
+  images: ImageStore;
+  frames: FrameSink;
+  drawn: Proposal | null;
+  failed: boolean;
+  overlay: boolean;
+  live: number | null;
+  skill: string | null;
+  empty: string;
+}
+
+export function Views(props: ViewsProps) {
+  const { drawn, overlay, live, failed } = props;
+  const open = overlay && drawn !== null && !drawn.closed_at;
+  if (!drawn)
+    return (
+      <div className="views" data-testid="views">
+        {(["left", "right"] as const).map((side) => (
+          <figure key={side} className="view" data-testid={`view-${side}`} style={{ aspectRatio: "4 / 3" }}>
+            <div className="view-empty">
+              {failed ? "The picture can't be loaded. Trying again." : side === "left" ? props.empty : ""}
+            </div>
+          </figure>
+        ))}
+      </div>
+    );
+  return (
+    <div className="views" data-testid="views" data-proposal-id={open ? drawn.id : undefined}>
+      {drawn.views.map((view, index) => (
+        <CameraView
+          key={view.camera}
+          side={index === 0 ? "left" : "right"}
+          view={view}
+          picture={props.images.get(view.image)}
+          skill={props.skill}
+          overlay={overlay}
+          judged={Boolean(drawn.closed_at)}
+          live={live}
+          frames={props.frames}
+        />
+      ))}
+      {failed && (
+        <p role="alert" className="error">
+          The new picture can’t be loaded. Trying again.
+        </p>
+      )}
+    </div>
+  );
+}

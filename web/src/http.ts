@@ -1,0 +1,131 @@
+// REST: JSON in and out; every failure becomes an `ApiError` that carries problem details with a remedy.
+import type {
+  AdapterInfo,
+  AlgorithmInfo,
+  Evaluation,
+  Experiment,
+  ExperimentCreate,
+  ExperimentPage,
+  MetricPage,
+  MetricPoint,
+  Mode,
+  Problem,
+  Proposal,
+  TaskInfo,
+  Verb,
+} from "./wire";
+
+const ROOT = "/api/v1";
+
+export class ApiError extends Error {
+  constructor(readonly problem: Problem) {
+    super(problem.detail);
+  }
+}
+
+const unreachable: Problem = {
+  type: "about:blank",
+  title: "No answer",
+  status: 0,
+  detail: "The service doesn't answer.",
+  remedy: "Check that it is running and that this device is on its network.",
+  fields: [],
+};
+
+/** Any thrown value as problem details. */
+export function problemOf(error: unknown): Problem {
+  return error instanceof ApiError ? error.problem : unreachable;
+}
+
+async function problemFrom(response: Response): Promise<Problem> {
+  const fallback: Problem = {
+    type: "about:blank",
+    title: response.statusText || "Error",
+    status: response.status,
+    detail: `The service answered ${response.status}.`,
+    remedy: "Try again; if it stays, look at the service's log.",
+    fields: [],
+  };
+  try {
+    return { ...fallback, ...((await response.json()) as Partial<Problem>) };
+  } catch {
+    return fallback;
+  }
+}
+
+async function request<T>(method: string, path: string, body?: unknown): Promise<T> {
+  let response: Response;
+  try {
+    response = await fetch(ROOT + path, {
+      method,
+      headers: body === undefined ? {} : { "Content-Type": "application/json" },
+      body: body === undefined ? null : JSON.stringify(body),
+    });
+  } catch {
+    throw new ApiError(unreachable);
+  }
+  if (!response.ok) throw new ApiError(await problemFrom(response));
+  return (await response.json()) as T;
+}
+
+/** A list comes bare or as a page. */
+async function list<T>(path: string): Promise<T[]> {
+  const answer = await request<T[] | { items: T[] }>("GET", path);
+  return Array.isArray(answer) ? answer : answer.items;
+}
+
+export interface Catalogue {
+  tasks: TaskInfo[];
+  adapters: AdapterInfo[];
+  algorithms: AlgorithmInfo[];
+  teachers: { name: string }[];
+}
+
+export const adapterList = () => list<AdapterInfo>("/adapters");
+
+export async function catalogue(): Promise<Catalogue> {
+  const [tasks, adapters, algorithms, teachers] = await Promise.all([
+    list<TaskInfo>("/tasks"),
+    adapterList(),
+    list<AlgorithmInfo>("/algorithms"),
+    list<{ name: string }>("/teachers"),
+  ]);
+  return { tasks, adapters, algorithms, teachers };
+}
+
+export const experiments = (cursor: string | null) =>
+  request<ExperimentPage>(
+    "GET",
+    `/experiments?limit=50${cursor ? `&cursor=${encodeURIComponent(cursor)}` : ""}`,
+  );
+
+export const experiment = (id: number) => request<Experiment>("GET", `/experiments/${id}`);
+
+export const createExperiment = (body: ExperimentCreate) => request<Experiment>("POST", "/experiments", body);
+
+export const act = (id: number, verb: Verb) => request<Experiment>("POST", `/experiments/${id}/${verb}`);
+
+export const setMode = (id: number, mode: Mode) =>
+  request<Experiment>("PATCH", `/experiments/${id}`, { mode });
+
+export const evaluate = (id: number, rollouts: number) =>
+  request<Evaluation>("POST", `/experiments/${id}/evaluate`, { rollouts });
+
+export const newestEvaluation = async (id: number) =>
+  (await list<Evaluation>(`/experiments/${id}/evaluations?limit=1`))[0] ?? null;
+
+export const newestProposal = async (id: number) =>
+  (await list<Proposal>(`/experiments/${id}/proposals?limit=1`))[0] ?? null;
+
+/** Every metric point of an experiment, oldest first. */
+export async function metrics(id: number): Promise<MetricPoint[]> {
+  const points: MetricPoint[] = [];
+  let cursor: string | null = null;
+  do {
+    const query: string = cursor ? `&cursor=${encodeURIComponent(cursor)}` : "";
+    const page: MetricPage = await request<MetricPage>("GET", `/experiments/${id}/metrics?limit=200${query}`);
+    points.push(...page.items);
+    cursor = page.next_cursor ?? null;
+  } while (cursor);
+  return points;
+}

@@ -1,0 +1,102 @@
+// The trainer's page: judge proposals on camera pictures, watch approved ones run, stop at any time.
+import { useEffect, useMemo, useState } from "react";
+import { activity } from "../activity";
+import { ActivityLine } from "../components/ActivityLine";
+import { ConnectionState } from "../components/ConnectionState";
+import { Confirm, type Question } from "../components/Dialog";
+import { HaltBanner } from "../components/HaltBanner";
+import { Header } from "../components/Header";
+import { JudgeBar } from "../components/JudgeBar";
+import { Notices } from "../components/Notices";
+import { ProblemCard } from "../components/ProblemCard";
+import { SidePanel } from "../components/SidePanel";
+import { StopButton } from "../components/StopButton";
+import { TrainerTitle } from "../components/TrainerTitle";
+import { useDrawn, Views } from "../components/Views";
+import { ImageStore } from "../images";
+import { useSession } from "../session";
+import { chosenFor, judgeable, overlayWanted } from "../state";
+import { useDrawnAt } from "../useDrawnAt";
+import type { Value } from "../wire";
+
+export function TrainerPage({ id }: { id: number }) {
+  const { state, session } = useSession(id);
+  const [question, setQuestion] = useState<Question | null>(null);
+  const images = useMemo(() => new ImageStore(), []);
+  const { drawn, failed } = useDrawn(images, state.proposal);
+  const { experiment, proposal, undoable, live } = state;
+
+  // An overlay is shown only on its own pictures, so nothing is drawn for a proposal whose pictures aren't here.
+  const current = drawn !== null && drawn === proposal;
+  const overlay = current && overlayWanted(state);
+  const drawnId = overlay && !drawn.closed_at ? drawn.id : null;
+  const clock = useDrawnAt(drawnId);
+  const ready = judgeable(state, drawnId);
+
+  useEffect(() => {
+    if (experiment) document.title = `${experiment.name} · SEED`;
+  }, [experiment]);
+
+  const judge = (value: Value, pressedAt: number) => {
+    if (!ready || drawnId === null || !clock.sawIt(pressedAt)) return;
+    clock.clicked(pressedAt);
+    session.judge(drawnId, value);
+  };
+
+  if (state.fatal) return <ProblemCard problem={state.fatal} />;
+  const now = activity(state);
+  return (
+    <>
+      <Header stop>
+        <ConnectionState connection={state.connection} pending={state.pending.length} />
+      </Header>
+      <StopButton stopping={state.stopping !== "no"} onStop={() => session.halt()} />
+      <main className="page with-dock" data-testid="trainer">
+        <HaltBanner state={state} onAsk={setQuestion} onRearm={() => void session.act("rearm")} />
+        <TrainerTitle experiment={experiment} session={session} onAsk={setQuestion} />
+        <div className="trainer">
+          <div className="stage">
+            <Views
+              images={images}
+              frames={session.frames}
+              drawn={drawn}
+              failed={failed}
+              overlay={overlay}
+              live={live}
+              skill={state.execution?.skill ?? (overlay ? drawn.skill : null)}
+              empty={
+                experiment?.lifecycle === "created" ? "Start, and the first proposal shows here." : now.text
+              }
+            />
+            <div className="dock">
+              <ActivityLine
+                activity={now}
+                number={drawnId !== null && drawn ? drawn.number : null}
+                canUndo={undoable !== null}
+                onUndo={() => undoable && session.undo(undoable.id)}
+              />
+              <JudgeBar
+                ready={ready}
+                chosen={proposal && current ? chosenFor(state, proposal.id) : null}
+                canUndo={undoable !== null}
+                onJudge={judge}
+                onUndo={() => undoable && session.undo(undoable.id)}
+              />
+            </div>
+          </div>
+          {experiment && (
+            <SidePanel
+              state={state}
+              experiment={experiment}
+              proposal={current ? proposal : drawn}
+              session={session}
+              onAsk={setQuestion}
+            />
+          )}
+        </div>
+      </main>
+      <Notices notices={state.notices} onDismiss={session.dismiss} />
+      {question && <Confirm question={question} onClose={() => setQuestion(null)} />}
+    </>
+  );
+}

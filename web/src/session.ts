@@ -1,0 +1,185 @@
+// Joins one experiment's stream, its outbox of clicks and the reducer: everything a trainer's page does to the world.
+import { type Dispatch, useEffect, useMemo, useReducer } from "react";
+import { FrameSink } from "./frames";
+import * as http from "./http";
+import { newId } from "./ids";
+import { type Click, Outbox } from "./outbox";
+import { type Action, initial, reduce, type TrainerState } from "./state";
+import { type Connection, Stream } from "./stream";
+import type { StreamEvent, Value, Verb } from "./wire";
+
+const RESEND_MS = 3000;
+const STOP_RETRY_MS = 1000;
+
+export class Session {
+  readonly frames = new FrameSink();
+  private readonly stream: Stream;
+  private readonly outbox: Outbox;
+  private resend: ReturnType<typeof setTimeout> | undefined;
+  private stopRetry: ReturnType<typeof setTimeout> | undefined;
+  private stopWanted = false;
+
+  constructor(
+    readonly id: number,
+    private readonly dispatch: Dispatch<Action>,
+  ) {
+    this.outbox = new Outbox(id, window.localStorage);
+    const scheme = location.protocol === "https:" ? "wss" : "ws";
+    this.stream = new Stream(`${scheme}://${location.host}/api/v1/experiments/${id}/stream`, {
+      onEvent: this.onEvent,
+      onFrame: (frame) => this.frames.show(frame),
+      onConnection: this.onConnection,
+    });
+  }
+
+  open(): void {
+    this.dispatch({ kind: "pending", clicks: this.outbox.all() });
+    this.stream.start();
+    http.newestEvaluation(this.id).then(
+      (evaluation) => this.dispatch({ kind: "evaluation", evaluation }),
+      () => undefined, // the stream tells of the next one
+    );
+    http.experiment(this.id).then(
+      (experiment) => this.dispatch({ kind: "experiment", experiment }),
+      (error: unknown) => {
+        const problem = http.problemOf(error);
+        if (problem.status === 404 || problem.status === 422) {
+          this.stream.stop();
+          this.dispatch({ kind: "fatal", problem });
+        }
+      },
+    );
+  }
+
+  close(): void {
+    this.stream.stop();
+    clearTimeout(this.resend);
+    clearTimeout(this.stopRetry);
+  }
+
+  /** Keep first, then send: a click survives a dead connection and a reload. */
+  judge(proposalId: number, value: Value): void {
+    if (this.outbox.all().some((click) => click.proposal_id === proposalId)) return;
+    const click: Click = { click_id: newId(), proposal_id: proposalId, value };
+    this.outbox.add(click);
+    this.send(click);
+    this.dispatch({ kind: "pending", clicks: this.outbox.all() });
+  }
+
+  undo(feedbackId: number): void {
+    if (!this.stream.send({ type: "undo", request_id: newId(), feedback_id: feedbackId }))
+      this.dispatch({ kind: "notice", tone: "warning", text: "Not connected: nothing was taken back." });
+  }
+
+  /** By every way there is, and again until it is confirmed. */
+  halt(): void {
+    this.stopWanted = true;
+    this.dispatch({ kind: "stopping", stopping: "asked" });
+    this.tryHalt();
+  }
+
+  async act(verb: Verb): Promise<void> {
+    if (verb === "rearm") this.stopWanted = false;
+    await this.guard(http.act(this.id, verb));
+  }
+
+  async setMode(mode: "propose_only" | "execute_approved"): Promise<void> {
+    await this.guard(http.setMode(this.id, mode));
+  }
+
+  async evaluate(rollouts: number): Promise<void> {
+    try {
+      await http.evaluate(this.id, rollouts);
+    } catch (error) {
+      this.complain(error);
+    }
+  }
+
+  dismiss = (id: number): void => this.dispatch({ kind: "dismiss", id });
+
+  private async guard(answer: ReturnType<typeof http.act>): Promise<void> {
+    try {
+      this.dispatch({ kind: "experiment", experiment: await answer });
+    } catch (error) {
+      this.complain(error);
+    }
+  }
+
+  private complain(error: unknown): void {
+    const problem = http.problemOf(error);
+    this.dispatch({ kind: "notice", tone: "error", text: `${problem.detail} ${problem.remedy}` });
+  }
+
+  private tryHalt(): void {
+    clearTimeout(this.stopRetry);
+    if (!this.stopWanted) return;
+    this.stream.send({ type: "halt", request_id: newId() });
+    http.act(this.id, "halt").then(
+      (experiment) => {
+        this.stopWanted = false;
+        this.dispatch({ kind: "experiment", experiment });
+      },
+      () => {
+        if (!this.stopWanted) return;
+        this.dispatch({ kind: "stopping", stopping: "unreachable" });
+        this.stopRetry = setTimeout(() => this.tryHalt(), STOP_RETRY_MS);
+      },
+    );
+  }
+
+  private send(click: Click): void {
+    this.stream.send({ type: "feedback", trainer: "local", ...click });
+  }
+
+  private sendKept(): void {
+    for (const click of this.outbox.all()) this.send(click);
+  }
+
+  private onConnection = (connection: Connection): void => {
+    this.dispatch({ kind: "connection", connection });
+    if (connection !== "open") return;
+    this.sendKept();
+    if (this.stopWanted) this.tryHalt();
+    http.metrics(this.id).then(
+      (points) => this.dispatch({ kind: "metrics", points }),
+      () => undefined, // the curve goes on from the stream
+    );
+  };
+
+  private onEvent = (event: StreamEvent): void => {
+    if (event.type === "acknowledged") this.outbox.remove(event.request_id);
+    if (event.type === "feedback_stored") this.outbox.remove(event.feedback.click_id);
+    if (event.type === "refused" && event.request_id) this.onRefused(event.request_id, event.problem.status);
+    if (event.type === "snapshot") this.onSnapshot(event);
+    if ((event.type === "snapshot" || event.type === "experiment_changed") && event.experiment.halted)
+      this.stopWanted = false;
+    this.dispatch({ kind: "event", event });
+  };
+
+  private onSnapshot(event: Extract<StreamEvent, { type: "snapshot" }>): void {
+    if (event.proposal) return;
+    http.newestProposal(this.id).then(
+      (proposal) => this.dispatch({ kind: "backdrop", proposal }),
+      () => undefined, // no picture yet is fine
+    );
+  }
+
+  private onRefused(requestId: string, status: number): void {
+    if (status < 500) {
+      this.outbox.remove(requestId);
+      return;
+    }
+    clearTimeout(this.resend);
+    this.resend = setTimeout(() => this.sendKept(), RESEND_MS);
+  }
+}
+
+export function useSession(id: number): { state: TrainerState; session: Session } {
+  const [state, dispatch] = useReducer(reduce, initial);
+  const session = useMemo(() => new Session(id, dispatch), [id]);
+  useEffect(() => {
+    session.open();
+    return () => session.close();
+  }, [session]);
+  return { state, session };
+}

@@ -1,0 +1,307 @@
+// All a trainer's page knows, in one reducer fed by the stream. Pure; the effects are in session.ts.
+import type { Click } from "./outbox";
+import type { Connection } from "./stream";
+import type {
+  Evaluation,
+  Execution,
+  Experiment,
+  Feedback,
+  MetricPoint,
+  Problem,
+  Proposal,
+  StreamEvent,
+  Value,
+} from "./wire";
+
+export interface Notice {
+  id: number;
+  tone: "info" | "good" | "warning" | "error";
+  text: string;
+}
+
+export interface TrainerState {
+  connection: Connection;
+  /** True once a snapshot came. */
+  ready: boolean;
+  bootId: string | null;
+  experiment: Experiment | null;
+  /** The newest proposal; open while `closed_at` is absent. */
+  proposal: Proposal | null;
+  execution: Execution | null;
+  /** The execution whose video covers the stills; it stays until a newer proposal brings newer stills. */
+  live: number | null;
+  undoable: Feedback | null;
+  /** Clicks that aren't acknowledged yet. */
+  pending: Click[];
+  /** The newest acknowledged click on the current proposal; it may stay open for other trainers. */
+  judged: { proposalId: number; value: Value } | null;
+  curve: CurvePoint[];
+  evaluation: Evaluation | null;
+  evaluationDone: number;
+  /** Emergency stop asked for and not confirmed; `unreachable` once an attempt failed. */
+  stopping: "no" | "asked" | "unreachable";
+  notices: Notice[];
+  nextNotice: number;
+  /** Why the page can't be shown at all. */
+  fatal: Problem | null;
+}
+
+export interface CurvePoint {
+  feedback: number;
+  successes: number;
+}
+
+export type Action =
+  | { kind: "event"; event: StreamEvent }
+  | { kind: "connection"; connection: Connection }
+  | { kind: "pending"; clicks: Click[] }
+  | { kind: "experiment"; experiment: Experiment }
+  | { kind: "metrics"; points: MetricPoint[] }
+  | { kind: "evaluation"; evaluation: Evaluation | null }
+  | { kind: "backdrop"; proposal: Proposal | null }
+  | { kind: "stopping"; stopping: TrainerState["stopping"] }
+  | { kind: "notice"; tone: Notice["tone"]; text: string }
+  | { kind: "dismiss"; id: number }
+  | { kind: "fatal"; problem: Problem };
+
+export const initial: TrainerState = {
+  connection: "connecting",
+  ready: false,
+  bootId: null,
+  experiment: null,
+  proposal: null,
+  execution: null,
+  live: null,
+  undoable: null,
+  pending: [],
+  judged: null,
+  curve: [],
+  evaluation: null,
+  evaluationDone: 0,
+  stopping: "no",
+  notices: [],
+  nextNotice: 1,
+  fatal: null,
+};
+
+export function reduce(state: TrainerState, action: Action): TrainerState {
+  switch (action.kind) {
+    case "event":
+      return onEvent(state, action.event);
+    case "connection":
+      return { ...state, connection: action.connection };
+    case "pending":
+      return { ...state, pending: action.clicks };
+    case "experiment":
+      return withExperiment(state, action.experiment);
+    case "metrics":
+      return { ...state, curve: action.points.reduce(addMetric, state.curve) };
+    case "evaluation":
+      return state.evaluation ? state : withEvaluation(state, action.evaluation, null);
+    case "backdrop":
+      return state.proposal ? state : { ...state, proposal: action.proposal };
+    case "stopping":
+      return { ...state, stopping: state.experiment?.halted ? "no" : action.stopping };
+    case "notice":
+      return withNotice(state, action.tone, action.text);
+    case "dismiss":
+      return { ...state, notices: state.notices.filter((notice) => notice.id !== action.id) };
+    case "fatal":
+      return { ...state, fatal: action.problem };
+  }
+}
+
+function onEvent(state: TrainerState, event: StreamEvent): TrainerState {
+  switch (event.type) {
+    case "snapshot":
+      return onSnapshot(state, event);
+    case "experiment_changed":
+      return withExperiment(state, event.experiment);
+    case "proposal_opened":
+      return { ...state, proposal: event.proposal, judged: null, live: state.execution ? state.live : null };
+    case "proposal_closed":
+      return event.proposal.id === state.proposal?.id ? { ...state, proposal: event.proposal } : state;
+    case "feedback_stored":
+      return {
+        ...state,
+        undoable: event.undoable ? event.feedback : state.undoable,
+        pending: without(state.pending, event.feedback.click_id),
+      };
+    case "feedback_undone":
+      return {
+        ...state,
+        judged: null,
+        undoable: state.undoable?.id === event.feedback.id ? null : state.undoable,
+      };
+    case "execution_started":
+      return { ...state, execution: event.execution, live: event.execution.id, undoable: null };
+    case "execution_ended":
+      return onExecutionEnded(state, event.execution, event.violations);
+    case "metrics_added":
+      return { ...state, curve: addMetric(state.curve, event.point) };
+    case "worker_changed":
+      return onWorker(state, event.worker, event.status, event.detail);
+    case "evaluation_changed":
+      return withEvaluation(state, event.evaluation, event.done);
+    case "acknowledged":
+      return onAcknowledged(state, event.request_id, event.feedback ?? null);
+    case "refused":
+      return onRefused(state, event.request_id, event.problem);
+    case "pong":
+      return state;
+  }
+}
+
+type SnapshotEvent = Extract<StreamEvent, { type: "snapshot" }>;
+
+function onSnapshot(state: TrainerState, event: SnapshotEvent): TrainerState {
+  const restarted = state.bootId !== null && state.bootId !== event.boot_id;
+  const execution = event.execution ?? null;
+  const last = state.proposal;
+  const closed: Proposal | null =
+    last && isOpen(last) ? { ...last, closed_at: event.server_time, close_reason: "interrupted" } : last;
+  const next: TrainerState = {
+    ...state,
+    ready: true,
+    bootId: event.boot_id,
+    proposal: event.proposal ?? closed,
+    execution,
+    live: execution?.id ?? (event.proposal ? null : state.live),
+    undoable: event.undoable ?? null,
+  };
+  const synced = withExperiment(next, event.experiment);
+  return restarted
+    ? withNotice(synced, "info", "The service restarted. This page is up to date again.")
+    : synced;
+}
+
+function withExperiment(state: TrainerState, experiment: Experiment): TrainerState {
+  const { feedback, successes } = experiment.counters;
+  return {
+    ...state,
+    experiment,
+    stopping: experiment.halted ? "no" : state.stopping,
+    curve: addPoint(state.curve, { feedback, successes }),
+  };
+}
+
+function onExecutionEnded(state: TrainerState, execution: Execution, violations: string[]): TrainerState {
+  let next: TrainerState = {
+    ...state,
+    execution: state.execution?.id === execution.id ? null : state.execution,
+  };
+  if (execution.task_success) next = withNotice(next, "good", "Task solved.");
+  for (const violation of violations) next = withNotice(next, "error", `Safety violation: ${violation}`);
+  if (execution.outcome === "interrupted")
+    next = withNotice(
+      next,
+      "warning",
+      `The ${execution.skill} was interrupted. It won't be repeated by itself.`,
+    );
+  return next;
+}
+
+function onWorker(state: TrainerState, worker: string, status: string, detail: string): TrainerState {
+  const name = worker === "robot" ? "The robot's process" : "The learner's process";
+  if (status === "died")
+    return withNotice(state, "warning", `${name} died and is being restarted. ${detail}`.trim());
+  if (status === "restarted") return withNotice(state, "info", `${name} is back. ${detail}`.trim());
+  return state;
+}
+
+function onAcknowledged(state: TrainerState, requestId: string, feedback: Feedback | null): TrainerState {
+  const pending = without(state.pending, requestId);
+  const judged = feedback
+    ? { proposalId: feedback.proposal_id, value: feedback.value as Value }
+    : state.judged;
+  const next = { ...state, pending, judged };
+  if (feedback?.status !== "late") return next;
+  return withNotice(next, "warning", `Your “${wordFor(feedback.value)}” came too late: not counted.`);
+}
+
+function onRefused(state: TrainerState, requestId: string | null, problem: Problem): TrainerState {
+  // A fault of the service (disk full, ...) keeps the click: the session sends it again.
+  const kept = problem.status >= 500;
+  const pending = requestId && !kept ? without(state.pending, requestId) : state.pending;
+  return withNotice({ ...state, pending }, "error", `${problem.detail} ${problem.remedy}`);
+}
+
+function withEvaluation(
+  state: TrainerState,
+  evaluation: Evaluation | null,
+  done: number | null,
+): TrainerState {
+  return { ...state, evaluation, evaluationDone: done ?? (evaluation?.ended_at ? evaluation.rollouts : 0) };
+}
+
+function withNotice(state: TrainerState, tone: Notice["tone"], text: string): TrainerState {
+  const others = state.notices.filter((notice) => notice.text !== text).slice(-3);
+  return {
+    ...state,
+    notices: [...others, { id: state.nextNotice, tone, text }],
+    nextNotice: state.nextNotice + 1,
+  };
+}
+
+function addMetric(curve: CurvePoint[], point: MetricPoint): CurvePoint[] {
+  const successes = point.values.successes;
+  return successes === undefined ? curve : addPoint(curve, { feedback: point.feedback, successes });
+}
+
+/** Sorted by feedback, one point each, the newest word on an amount of feedback wins. */
+function addPoint(curve: CurvePoint[], point: CurvePoint): CurvePoint[] {
+  let at = curve.length;
+  while (at > 0 && (curve[at - 1]?.feedback ?? 0) > point.feedback) at -= 1;
+  const same = at > 0 ? curve[at - 1] : undefined;
+  if (same?.feedback !== point.feedback) return [...curve.slice(0, at), point, ...curve.slice(at)];
+  if (same.successes === point.successes) return curve;
+  return [...curve.slice(0, at - 1), point, ...curve.slice(at)];
+}
+
+function without(clicks: Click[], clickId: string): Click[] {
+  return clicks.some((click) => click.click_id === clickId)
+    ? clicks.filter((click) => click.click_id !== clickId)
+    : clicks;
+}
+
+export function isOpen(proposal: Proposal): boolean {
+  return !proposal.closed_at;
+}
+
+export function wordFor(value: number): string {
+  return value > 0 ? "good" : value < 0 ? "bad" : "neutral";
+}
+
+/** The click made for a proposal and not acknowledged yet. */
+export function pendingFor(state: TrainerState, proposalId: number): Value | null {
+  return state.pending.find((click) => click.proposal_id === proposalId)?.value ?? null;
+}
+
+/** What this page said about a proposal, acknowledged or not. */
+export function chosenFor(state: TrainerState, proposalId: number): Value | null {
+  const { judged } = state;
+  return pendingFor(state, proposalId) ?? (judged?.proposalId === proposalId ? judged.value : null);
+}
+
+/** Whether a click now may judge the proposal that is drawn on the screen. */
+export function judgeable(state: TrainerState, drawnId: number | null): boolean {
+  const { proposal, experiment } = state;
+  return (
+    proposal !== null &&
+    experiment !== null &&
+    isOpen(proposal) &&
+    proposal.id === drawnId &&
+    proposal.purpose !== "evaluation" &&
+    !experiment.teacher &&
+    experiment.lifecycle === "running" &&
+    !experiment.halted &&
+    chosenFor(state, proposal.id) === null
+  );
+}
+
+/** Whether the overlay says something true about what happens next. */
+export function overlayWanted(state: TrainerState): boolean {
+  const { proposal, experiment } = state;
+  if (!proposal || state.live !== null) return false;
+  return isOpen(proposal) || (proposal.close_reason === "judged" && experiment?.lifecycle === "running");
+}

@@ -1,0 +1,136 @@
+// One WebSocket per open experiment, kept alive: heartbeat, backoff, and an immediate try when the device comes back.
+import { type Frame, parseFrame } from "./frames";
+import type { ClientMessage, StreamEvent } from "./wire";
+
+export type Connection = "connecting" | "open" | "lost";
+
+const FIRST_WAIT_MS = 250;
+const LONGEST_WAIT_MS = 8000;
+const PING_MS = 4000;
+const SILENCE_MS = 10_000;
+
+export interface StreamHandlers {
+  onEvent: (event: StreamEvent) => void;
+  onFrame: (frame: Frame) => Promise<void>;
+  onConnection: (connection: Connection) => void;
+}
+
+export class Stream {
+  private socket: WebSocket | null = null;
+  private wait = FIRST_WAIT_MS;
+  private retry: ReturnType<typeof setTimeout> | undefined;
+  private heartbeat: ReturnType<typeof setInterval> | undefined;
+  private heardAt = 0;
+  private closed = false;
+
+  constructor(
+    private readonly url: string,
+    private readonly handlers: StreamHandlers,
+  ) {}
+
+  start(): void {
+    this.closed = false;
+    window.addEventListener("online", this.hurry);
+    window.addEventListener("offline", this.doubt);
+    document.addEventListener("visibilitychange", this.hurry);
+    this.heartbeat = setInterval(this.beat, PING_MS);
+    this.connect();
+  }
+
+  stop(): void {
+    this.closed = true;
+    window.removeEventListener("online", this.hurry);
+    window.removeEventListener("offline", this.doubt);
+    document.removeEventListener("visibilitychange", this.hurry);
+    clearInterval(this.heartbeat);
+    clearTimeout(this.retry);
+    this.drop();
+  }
+
+  /** Whether the message left; false means the socket isn't open. */
+  send(message: ClientMessage): boolean {
+    if (this.socket?.readyState !== WebSocket.OPEN) return false;
+    this.socket.send(JSON.stringify(message));
+    return true;
+  }
+
+  private connect(): void {
+    clearTimeout(this.retry);
+    this.handlers.onConnection("connecting");
+    const socket = new WebSocket(this.url);
+    socket.binaryType = "arraybuffer";
+    this.socket = socket;
+    this.heardAt = Date.now();
+    socket.onmessage = (message) => this.receive(socket, message.data);
+    socket.onclose = () => this.lost(socket);
+  }
+
+  private receive(socket: WebSocket, data: string | ArrayBuffer): void {
+    if (socket !== this.socket) return;
+    this.heardAt = Date.now();
+    if (typeof data !== "string") {
+      const frame = parseFrame(data);
+      const done = () => this.send({ type: "frame_ack" });
+      if (frame) void this.handlers.onFrame(frame).then(done);
+      else done();
+      return;
+    }
+    const event = JSON.parse(data) as StreamEvent;
+    if (event.type === "snapshot") {
+      // Only now is the page in step with the service: an open socket alone promises nothing.
+      this.wait = FIRST_WAIT_MS;
+      this.handlers.onEvent(event);
+      this.handlers.onConnection("open");
+    } else {
+      this.handlers.onEvent(event);
+    }
+  }
+
+  private lost(socket: WebSocket): void {
+    if (socket !== this.socket || this.closed) return;
+    this.socket = null;
+    this.handlers.onConnection("lost");
+    clearTimeout(this.retry);
+    // Jitter: many pages shouldn't come back to a restarted service in the same millisecond.
+    this.retry = setTimeout(() => this.connect(), this.wait * (0.75 + Math.random() / 2));
+    this.wait = Math.min(this.wait * 1.7, LONGEST_WAIT_MS);
+  }
+
+  private drop(): void {
+    const socket = this.socket;
+    this.socket = null;
+    if (!socket) return;
+    socket.onmessage = null;
+    socket.onclose = null;
+    socket.close();
+  }
+
+  private restart(): void {
+    const socket = this.socket;
+    this.drop();
+    if (socket) this.handlers.onConnection("lost");
+    this.connect();
+  }
+
+  private hurry = (): void => {
+    if (this.closed || document.visibilityState === "hidden") return;
+    this.wait = FIRST_WAIT_MS;
+    if (this.socket?.readyState === WebSocket.OPEN) this.send({ type: "ping" });
+    else if (this.socket?.readyState !== WebSocket.CONNECTING) this.restart();
+  };
+
+  /** The device says it has no network: a half-open socket would keep clicks waiting for its time-out. */
+  private doubt = (): void => {
+    const socket = this.socket;
+    if (!socket) return;
+    this.drop();
+    this.socket = socket;
+    this.lost(socket);
+  };
+
+  private beat = (): void => {
+    if (!this.socket) return;
+    if (Date.now() - this.heardAt > SILENCE_MS) this.restart();
+    else this.send({ type: "ping" });
+  };
+}

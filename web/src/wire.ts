@@ -1,0 +1,51 @@
+// The service's messages under short names. The shapes themselves are generated: see api.ts.
+import type { components } from "./api";
+
+type Schemas = components["schemas"];
+
+export type Experiment = Schemas["Experiment"];
+export type ExperimentCreate = Schemas["ExperimentCreate"];
+export type ExperimentPage = Schemas["ExperimentPage"];
+export type Lifecycle = Schemas["Lifecycle"];
+export type Mode = Schemas["Mode"];
+export type Proposal = Schemas["Proposal"];
+export type View = Schemas["View"];
+export type Overlay = Schemas["Overlay"];
+export type Feedback = Schemas["Feedback"];
+export type Execution = Schemas["Execution"];
+export type MetricPoint = Schemas["MetricPoint"];
+export type MetricPage = Schemas["MetricPage"];
+export type Evaluation = Schemas["Evaluation"];
+export type TaskInfo = Schemas["TaskInfo"];
+export type AdapterInfo = Schemas["AdapterInfo"];
+export type AlgorithmInfo = Schemas["AlgorithmInfo"];
+export type Problem = Schemas["Problem"];
+export type FrameHeader = Schemas["FrameHeader"];
+
+export type StreamEvent =
+  | Schemas["Snapshot"]
+  | Schemas["ExperimentChanged"]
+  | Schemas["ProposalOpened"]
+  | Schemas["ProposalClosed"]
+  | Schemas["FeedbackStored"]
+  | Schemas["FeedbackUndone"]
+  | Schemas["ExecutionStarted"]
+  | Schemas["ExecutionEnded"]
+  | Schemas["MetricsAdded"]
+  | Schemas["WorkerChanged"]
+  | Schemas["EvaluationChanged"]
+  | Schemas["Acknowledged"]
+  | Schemas["Refused"]
+  | Schemas["Pong"];
+
+export type ClientMessage =
+  | Schemas["ClientFeedback"]
+  | Schemas["ClientUndo"]
+  | Schemas["ClientHalt"]
+  | Schemas["ClientFrameAck"]
+  | Schemas["ClientPing"];
+
+/** −1 bad, 0 neutral, +1 good. */
+export type Value = -1 | 0 | 1;
+
+export type Verb = "start" | "pause" | "resume" | "finish" | "halt" | "rearm";
