@@ -470,6 +470,20 @@ class Problem(BaseModel):
     fields: list[FieldProblem] = []
 
 
+class Health(Wire):
+    """The process is up. `boot_id` changes when the server restarts."""
+
+    status: Literal["ok"] = "ok"
+    boot_id: str
+
+
+class Readiness(Wire):
+    """Whether work can be done; each check is `ok` or says what is wrong."""
+
+    ready: bool
+    checks: dict[str, str]
+
+
 # --- stream: server to client -------------------------------------------------------------------------------------
 
 

@@ -1,0 +1,111 @@
+"""The HTTP application: routes, errors, guards, health and the web page."""
+
+from __future__ import annotations
+
+import contextlib
+import secrets
+from collections.abc import AsyncIterator
+from importlib.metadata import version
+from pathlib import Path
+
+from fastapi import FastAPI, Response
+from fastapi.responses import FileResponse, HTMLResponse, JSONResponse
+from starlette.convertors import Convertor, register_url_convertor
+
+from server import errors
+from server.openapi import describe
+from server.origin import Guard
+from server.routes import catalogue, experiments, feedback, proposals, records, stream
+from server.schemas import Health, Readiness
+from server.service import Service, create_first, opened
+from server.settings import Settings
+
+API = "/api/v1"
+STATIC = Path(__file__).parent / "static"
+NOT_BUILT = """<!doctype html><html lang="en"><title>SEED: the page is not built</title>
+<body style="font-family: sans-serif; max-width: 40rem; margin: 4rem auto">
+<h1>The web page has not been built</h1>
+<p>Run <code>make run</code> in the project's directory: it builds the page and starts the service.</p>
+<p>The service itself is up: <a href="/docs">its API</a>.</p></body></html>"""
+
+
+def create_app(settings: Settings | None = None, service: Service | None = None) -> FastAPI:
+    """The application; it opens its own service at start unless it is handed a running one."""
+    settings = settings or (service.settings if service else Settings())
+
+    @contextlib.asynccontextmanager
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        if service is not None:
+            app.state.service = service
+            await create_first(service)
+            yield
+            return
+        async with opened(settings) as own:
+            app.state.service = own
+            await create_first(own)
+            yield
+
+    app = FastAPI(
+        title="SEED",
+        version=version("seed-robot"),
+        summary="Train a robot arm by judging the skills it proposes.",
+        lifespan=lifespan,
+        generate_unique_id_function=lambda route: route.name,
+        separate_input_output_schemas=False,
+    )
+    app.state.boot_id = secrets.token_hex(8)
+    for part in (catalogue, experiments, proposals, feedback, records, stream):
+        app.include_router(part.router, prefix=API)
+    stream.document(app)
+    errors.install(app)
+    describe(app)
+    app.add_middleware(Guard, settings=settings)
+    _add_probes(app)
+    _add_page(app)
+    return app
+
+
+def _add_probes(app: FastAPI) -> None:
+    @app.get("/health", tags=["probes"])
+    async def health() -> Health:
+        """The process is up and its event loop turns."""
+        return Health(boot_id=app.state.boot_id)
+
+    @app.get("/ready", tags=["probes"], responses={503: {"model": Readiness, "description": "Not ready"}})
+    async def ready() -> Response:
+        """Whether the database answers and the workers that should live do."""
+        running: Service = app.state.service
+        readiness = await running.readiness()
+        return JSONResponse(readiness.model_dump(mode="json"), 200 if readiness.ready else 503)
+
+
+class _PagePath(Convertor[str]):
+    """Every address that isn't the API's: an unknown route of the API is an error, not the page."""
+
+    regex = "(?!api(?:/|$)).*"
+
+    def convert(self, value: str) -> str:
+        return value
+
+    def to_string(self, value: str) -> str:
+        return value
+
+
+def _add_page(app: FastAPI) -> None:
+    register_url_convertor("page", _PagePath())
+
+    @app.api_route("/{path:page}", methods=["GET", "HEAD"], include_in_schema=False)
+    async def page(path: str) -> Response:
+        """A file of the built page; an address without a suffix is one of the page's own (SPA)."""
+        root = STATIC.resolve()
+        file = (root / path).resolve()
+        if path and file.is_relative_to(root) and file.is_file():
+            # Vite names what it builds by content hash
+            cache = "public, max-age=31536000, immutable" if path.startswith("assets/") else "no-cache"
+            return FileResponse(file, headers={"Cache-Control": cache})
+        index = root / "index.html"
+        if not index.is_file():
+            return HTMLResponse(NOT_BUILT, 503)
+        if Path(path).suffix:
+            raise errors.ServiceError(404, f"the page has no file /{path}", remedy="reload the page")
+        return FileResponse(index, headers={"Cache-Control": "no-cache"})

@@ -1,0 +1,163 @@
+"""The catalogue: tasks, adapters, algorithms and teachers found by entry points, and the check of a new experiment."""
+
+from __future__ import annotations
+
+import logging
+import math
+from collections.abc import Iterable, Mapping
+from importlib.metadata import entry_points
+from typing import Any, TypeVar, cast
+
+from pydantic import BaseModel, ValidationError
+
+from agent.algorithm import AlgorithmFactory
+from robot_adapters import registry
+from robot_adapters.base import AdapterFactory
+from robot_adapters.tasks.base import Task
+from server.errors import invalid
+from server.schemas import (
+    AdapterInfo,
+    Aggregation,
+    AlgorithmInfo,
+    ExperimentCreate,
+    FieldProblem,
+    Parameter,
+    Skill,
+    TaskInfo,
+)
+
+T = TypeVar("T")
+
+log = logging.getLogger("seed.catalogue")
+
+
+def algorithms() -> dict[str, AlgorithmFactory]:
+    """Algorithms by name (entry points of the group `seed.algorithms`); a broken foreign one is skipped."""
+    return cast(dict[str, AlgorithmFactory], _load("seed.algorithms"))
+
+
+def teachers() -> dict[str, Any]:
+    """Synthetic trainers by name (entry points of the group `seed.teachers`)."""
+    return _load("seed.teachers")
+
+
+def task_info(name: str, kind: type[Task]) -> TaskInfo:
+    """A task as the wire shows it."""
+    task = kind()
+    skills = [
+        Skill(
+            name=spec.name,
+            description=spec.description,
+            parameters=[
+                Parameter(name=p.name, unit=p.unit, low=p.low, high=p.high, description=p.description)
+                for p in spec.parameters
+            ],
+        )
+        for spec in task.skills
+    ]
+    return TaskInfo(
+        name=name,
+        title=task.title,
+        instruction=task.instruction,
+        state=[
+            {"name": f.name, "size": f.size, "unit": f.unit, "description": f.description} for f in task.state_fields
+        ],
+        skills=skills,
+        subgoals=[s.description for s in task.subgoals],
+        horizon=task.horizon,
+    )
+
+
+def adapter_info(name: str, factory: AdapterFactory) -> AdapterInfo:
+    """An adapter as the wire shows it."""
+    return AdapterInfo(
+        name=name,
+        description=factory.description,
+        simulated=factory.simulated,
+        tasks=list(factory.tasks),
+        settings_schema=factory.settings.model_json_schema(),
+    )
+
+
+def algorithm_info(name: str, factory: AlgorithmFactory) -> AlgorithmInfo:
+    """An algorithm as the wire shows it."""
+    return AlgorithmInfo(
+        name=name,
+        description=" ".join((factory.settings.__doc__ or "").split()),
+        presets={preset: dict(values) for preset, values in factory.presets.items()},
+        settings_schema=factory.settings.model_json_schema(),
+    )
+
+
+def check(body: ExperimentCreate) -> ExperimentCreate:
+    """`body` with all settings resolved: defaults, then the preset, then what the body says.
+
+    Raises:
+        ServiceError: 422; its fields name what is wrong (e.g. `settings.batch_size`), its remedy the known names.
+    """
+    adapter = _known("adapter", body.adapter, registry.adapters())
+    _known("task", body.task, registry.tasks())
+    if body.task not in adapter.tasks:
+        raise invalid(
+            [FieldProblem(field="adapter", message=f"{body.adapter!r} can't stage the task {body.task!r}")],
+            remedy=f"choose a task that {body.adapter} stages: {_list(adapter.tasks)}",
+        )
+    algorithm = _known("algorithm", body.algorithm, algorithms())
+    preset: Mapping[str, Any] = {}
+    if body.preset is not None:
+        preset = _known("preset", body.preset, algorithm.presets)
+    if body.teacher is not None:
+        _known("teacher", body.teacher, teachers())
+    if body.aggregation is not Aggregation.FIRST:
+        raise invalid(
+            [FieldProblem(field="aggregation", message="needs several trainers, and there is one")],
+            remedy="use 'first'",
+        )
+    return body.model_copy(
+        update={
+            "settings": _resolve("settings", algorithm.settings, {**preset, **body.settings}),
+            "adapter_settings": _resolve("adapter_settings", adapter.settings, body.adapter_settings),
+        }
+    )
+
+
+def _known(field: str, name: str, known: Mapping[str, T]) -> T:
+    found = known.get(name)
+    if found is None:
+        raise invalid(
+            [FieldProblem(field=field, message=f"there is no {field} named {name!r}")],
+            remedy=f"use one of: {_list(known)}" if known else f"there is no {field} to choose; leave it out",
+        )
+    return found
+
+
+def _resolve(field: str, model: type[BaseModel], values: Mapping[str, Any]) -> dict[str, Any]:
+    """All settings of `model` as JSON values, `values` taking effect."""
+    unknown = sorted(set(values) - set(model.model_fields))
+    if unknown:
+        raise invalid(
+            [FieldProblem(field=f"{field}.{name}", message="there is no such setting") for name in unknown],
+            remedy=f"the settings are: {_list(model.model_fields)}",
+        )
+    for name, value in values.items():
+        if isinstance(value, float) and not math.isfinite(value):
+            raise invalid([FieldProblem(field=f"{field}.{name}", message="is not finite")], remedy="give a number")
+    try:
+        return model.model_validate(dict(values)).model_dump(mode="json")
+    except ValidationError as error:
+        fields = [FieldProblem(field=".".join([field, *map(str, e["loc"])]), message=e["msg"]) for e in error.errors()]
+        raise invalid(fields, remedy="correct the named settings; the catalogue gives their schema") from error
+
+
+def _load(group: str) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for entry in entry_points(group=group):
+        try:
+            found[entry.name] = entry.load()
+        except Exception as error:  # noqa: BLE001  a foreign plug-in may fail in any way; the others must still work
+            log.warning("the plug-in %s of %s can't be loaded: %s", entry.name, group, error)
+    return dict(sorted(found.items()))
+
+
+def _list(names: Iterable[str]) -> str:
+    return ", ".join(sorted(names))

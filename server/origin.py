@@ -1,0 +1,177 @@
+"""Who may talk to the service: Host and Origin checks, body limit and protective headers, as one ASGI middleware.
+
+There is no login yet, so a browser's same-origin rule is the lock. Two ways around it are closed here: a foreign name
+that resolves to this machine (DNS rebinding: Host check) and a foreign page that sends requests (Origin check).
+"""
+
+from __future__ import annotations
+
+import ipaddress
+from urllib.parse import urlsplit
+
+from starlette.exceptions import HTTPException
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from server.errors import ServiceError, problem, response
+from server.schemas import Problem
+from server.settings import Settings
+
+SAFE_METHODS = {"GET", "HEAD", "OPTIONS"}
+LOOPBACK_NAMES = {"localhost", "127.0.0.1", "::1"}
+DRAIN_LIMIT = 32 * 1024 * 1024
+"""Bytes of a refused body that are read and thrown away, so that the client gets to read the answer."""
+
+PROTECTIVE_HEADERS = (
+    (b"x-content-type-options", b"nosniff"),
+    (b"x-frame-options", b"DENY"),  # a page that frames ours could steal clicks, and clicks move a robot
+    (b"content-security-policy", b"frame-ancestors 'none'"),
+    (b"cross-origin-resource-policy", b"same-origin"),
+    (b"referrer-policy", b"no-referrer"),
+)
+
+
+class RemoteNotAllowed(ServiceError):
+    """The service was asked to listen where strangers can reach it."""
+
+
+def check_bind(settings: Settings) -> None:
+    """Refuse to listen on an address that others reach, unless that was asked for.
+
+    Raises:
+        RemoteNotAllowed: says how to publish the service safely.
+    """
+    if settings.loopback or settings.allow_remote:
+        return
+    raise RemoteNotAllowed(
+        403,
+        f"{settings.host} can be reached by others, and there is no login: whoever reaches the port can move the robot",
+        remedy=f"reach it through a tunnel (ssh -L {settings.port}:127.0.0.1:{settings.port} thismachine), or put a "
+        "proxy that authenticates in front of 127.0.0.1; inside a container set SEED_ALLOW_REMOTE=1",
+    )
+
+
+class Guard:
+    """ASGI middleware: refuses foreign hosts, foreign origins and bodies that are too large."""
+
+    def __init__(self, app: ASGIApp, settings: Settings) -> None:
+        self.app = app
+        self.settings = settings
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """One request or WebSocket handshake."""
+        if scope["type"] not in ("http", "websocket"):
+            await self.app(scope, receive, send)
+            return
+        headers = {name: value.decode("latin-1") for name, value in scope["headers"]}
+        refused = self._refusal(scope, headers)
+        if scope["type"] == "websocket":
+            # the denial is an HTTP answer to the handshake (ASGI extension websocket.http.response)
+            await (response(refused)(scope, receive, send) if refused else self.app(scope, receive, send))
+            return
+        limit = self.settings.max_body_bytes
+        if refused is None and _declared_length(headers) > limit:
+            refused = too_large(limit)
+        if refused is not None:
+            await _drain(receive)
+            await response(refused, {"connection": "close"})(scope, receive, _protected(send))
+            return
+        await self.app(scope, _limited(receive, limit), _protected(send))
+
+    def _refusal(self, scope: Scope, headers: dict[bytes, str]) -> Problem | None:
+        host = headers.get(b"host", "")
+        if not self._known_host(host):
+            return problem(
+                403,
+                f"the service doesn't answer under the name {host!r}",
+                remedy="open it as http://127.0.0.1 with its port, or add the name to SEED_ALLOWED_HOSTS",
+                slug="foreign-host",
+            )
+        origin = headers.get(b"origin")
+        unsafe = scope["type"] == "websocket" or scope["method"] not in SAFE_METHODS
+        if unsafe and origin is not None and not self._known_origin(origin, host):
+            return problem(
+                403,
+                f"a page of {origin!r} may not act here",
+                remedy="open the service under its own address",
+                slug="foreign-origin",
+            )
+        return None
+
+    def _known_host(self, host: str) -> bool:
+        name = _name(host)
+        if name in LOOPBACK_NAMES or name in self.settings.allowed_hosts:
+            return True
+        # rebinding needs a name; an address in numbers is safe where remote use is allowed
+        return self.settings.allow_remote and _is_address(name)
+
+    def _known_origin(self, origin: str, host: str) -> bool:
+        netloc = urlsplit(origin).netloc.lower()
+        return netloc != "" and (netloc == host.lower() or _name(netloc) in self.settings.allowed_hosts)
+
+
+def too_large(limit: int) -> Problem:
+    """The answer to a body above the limit."""
+    return problem(413, f"the body is larger than {limit} bytes", remedy="send a smaller body")
+
+
+class BodyTooLarge(HTTPException):
+    """Raised while reading a body of undeclared length; FastAPI lets an HTTPException through its body parser."""
+
+    def __init__(self) -> None:
+        super().__init__(413)
+
+
+def _limited(receive: Receive, limit: int) -> Receive:
+    total = 0
+
+    async def limited() -> Message:
+        nonlocal total
+        message = await receive()
+        total += len(message.get("body", b""))
+        if total > limit:
+            if message.get("more_body"):
+                await _drain(receive)
+            raise BodyTooLarge
+        return message
+
+    return limited
+
+
+async def _drain(receive: Receive) -> None:
+    """Read and forget: a client that is still sending when we close would see a reset instead of the answer."""
+    dropped = 0
+    while dropped < DRAIN_LIMIT:
+        message = await receive()
+        dropped += len(message.get("body", b""))
+        if message["type"] != "http.request" or not message.get("more_body"):
+            return
+
+
+def _protected(send: Send) -> Send:
+    async def protected(message: Message) -> None:
+        if message["type"] == "http.response.start":
+            message = {**message, "headers": [*message.get("headers", []), *PROTECTIVE_HEADERS]}
+        await send(message)
+
+    return protected
+
+
+def _declared_length(headers: dict[bytes, str]) -> int:
+    declared = headers.get(b"content-length", "0")
+    return int(declared) if declared.isascii() and declared.isdigit() else 0
+
+
+def _name(host: str) -> str:
+    """`Example.org:80` -> example.org; `[::1]:80` -> ::1."""
+    host = host.strip().lower()
+    if host.startswith("["):
+        return host[1:].partition("]")[0]
+    return host.rpartition(":")[0] if ":" in host else host
+
+
+def _is_address(name: str) -> bool:
+    try:
+        ipaddress.ip_address(name)
+    except ValueError:
+        return False
+    return True

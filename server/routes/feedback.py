@@ -1,0 +1,64 @@
+"""Feedback: click, take back, read."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import APIRouter, Body, Response
+
+from server.errors import late_feedback
+from server.routes.dependencies import Cursor, Id, Limit, Running, errors
+from server.schemas import Feedback, FeedbackCreate, FeedbackPage, FeedbackStatus
+
+router = APIRouter(tags=["feedback"])
+
+CLICK = {"good": {"value": {"click_id": "9f1c2a77-3b1e", "value": 1}}}
+
+
+@router.post(
+    "/proposals/{proposal_id}/feedback",
+    status_code=201,
+    responses={
+        200: {"model": Feedback, "description": "This very click is stored already"},
+        **errors(400, 404, 409, 413, 422),
+    },
+)
+async def give_feedback(
+    service: Running,
+    response: Response,
+    proposal_id: Id,
+    body: Annotated[FeedbackCreate, Body(openapi_examples=CLICK)],
+) -> Feedback:
+    """One click. It is answered after it is stored; a late one is kept, decides nothing, and is answered 409."""
+    feedback, duplicate = await service.hub.feedback(proposal_id, body)
+    if feedback.status is FeedbackStatus.LATE:
+        raise late_feedback(feedback)
+    if duplicate:
+        response.status_code = 200
+    return feedback
+
+
+@router.get("/proposals/{proposal_id}/feedback", responses=errors(404, 422))
+async def list_feedback_of_proposal(
+    service: Running, proposal_id: Id, cursor: Cursor = None, limit: Limit = 50
+) -> FeedbackPage:
+    """Feedback on one proposal, newest first."""
+    return await service.store.feedback_of_proposal(proposal_id, cursor, limit)
+
+
+@router.get("/experiments/{experiment_id}/feedback", responses=errors(404, 422))
+async def list_feedback(service: Running, experiment_id: Id, cursor: Cursor = None, limit: Limit = 50) -> FeedbackPage:
+    """Feedback of an experiment, newest first, late and undone included."""
+    return await service.store.feedback_of_experiment(experiment_id, cursor, limit)
+
+
+@router.get("/feedback/{feedback_id}", responses=errors(404, 422))
+async def get_feedback(service: Running, feedback_id: Id) -> Feedback:
+    """One click as it is stored."""
+    return await service.store.feedback(feedback_id)
+
+
+@router.delete("/feedback/{feedback_id}", responses=errors(404, 409, 422))
+async def undo_feedback(service: Running, feedback_id: Id) -> Feedback:
+    """Take back the newest click, while nothing has moved; its proposal is open again."""
+    return await service.hub.undo(feedback_id)

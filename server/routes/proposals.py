@@ -1,0 +1,55 @@
+"""Proposals and the pictures they are drawn on."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter, Request, Response
+from fastapi.responses import FileResponse
+
+from server.errors import ServiceError
+from server.images import Images
+from server.routes.dependencies import Cursor, Id, Limit, Running, errors
+from server.schemas import Proposal, ProposalPage
+
+router = APIRouter(tags=["proposals"])
+
+IMAGE = {
+    200: {"content": {"image/jpeg": {"schema": {"type": "string", "format": "binary"}}}, "description": "The JPEG"},
+    304: {"description": "The client has it already"},
+}
+
+
+@router.get("/experiments/{experiment_id}/proposals", responses=errors(404, 422))
+async def list_proposals(service: Running, experiment_id: Id, cursor: Cursor = None, limit: Limit = 50) -> ProposalPage:
+    """Proposals of an experiment, newest first."""
+    return await service.store.proposals(experiment_id, cursor, limit)
+
+
+@router.get("/proposals/{proposal_id}", responses=errors(404, 422))
+async def get_proposal(service: Running, proposal_id: Id) -> Proposal:
+    """One proposal."""
+    return await service.store.proposal(proposal_id)
+
+
+@router.get(
+    "/proposals/{proposal_id}/images/{camera}",
+    response_class=FileResponse,
+    responses={**errors(404, 422), **IMAGE},
+)
+async def get_image(service: Running, request: Request, proposal_id: Id, camera: str) -> Response:
+    """The very still image that a proposal's overlay was computed on. It never changes: cache it for good."""
+    proposal = await service.store.proposal(proposal_id)
+    view = next((view for view in proposal.views if view.camera == camera), None)
+    if view is None:
+        cameras = ", ".join(view.camera for view in proposal.views)
+        raise ServiceError(404, f"the proposal has no camera {camera!r}", remedy=f"use one of: {cameras}")
+    headers = {"ETag": f'"{view.image}"', "Cache-Control": "private, max-age=31536000, immutable"}
+    if headers["ETag"] in request.headers.get("if-none-match", ""):
+        return Response(status_code=304, headers=headers)
+    path = Images(service.settings.data_dir).path(view.image)
+    if not path.is_file():
+        raise ServiceError(
+            404,
+            f"the picture of {camera} is missing on disk",
+            remedy="put the images directory of the data directory back from a backup",
+        )
+    return FileResponse(path, media_type="image/jpeg", headers=headers)

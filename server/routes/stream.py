@@ -1,0 +1,71 @@
+"""The WebSocket route of an experiment, and its messages in OpenAPI."""
+
+from __future__ import annotations
+
+from typing import Annotated, get_args
+
+from fastapi import APIRouter, Body, FastAPI, WebSocket, WebSocketDisconnect
+
+from server.errors import problem, problem_of, response
+from server.routes.dependencies import LARGEST_ID
+from server.schemas import ClientMessage, FrameHeader, StreamEvent
+from server.service import Service
+from server.store_errors import StoreError
+from server.stream import Connection
+
+router = APIRouter()
+
+
+@router.websocket("/experiments/{experiment_id}/stream")
+async def stream(socket: WebSocket, experiment_id: str) -> None:
+    """A snapshot, then everything that happens."""
+    service: Service = socket.app.state.service
+    if not experiment_id.isascii() or not experiment_id.isdigit() or int(experiment_id[:20]) > LARGEST_ID:
+        details = problem(404, f"there is no experiment {experiment_id[:40]!r}", remedy="see GET /api/v1/experiments")
+        await socket.send_denial_response(response(details))
+        return
+    watched = int(experiment_id)
+    # first listen, then look: whatever happens while the snapshot is read comes after it, some of it twice,
+    # and every event carries the whole of what it is about, so twice is harmless
+    with service.rooms.join(watched) as outbox:
+        try:
+            snapshot = await service.hub.snapshot(watched, socket.app.state.boot_id)
+        except StoreError as error:
+            await socket.send_denial_response(response(problem_of(error)))
+            return
+        await socket.accept()
+        try:
+            await socket.send_text(snapshot.model_dump_json())
+        except WebSocketDisconnect:
+            return
+        await Connection(socket, outbox, service.hub, service.store, watched).serve()
+
+
+def document(app: FastAPI) -> None:
+    """Declare every message of the stream as a webhook, so that OpenAPI (and the types made from it) has them."""
+
+    @app.webhooks.post("stream-event", tags=["stream"], summary="Any event of the stream (text message)")
+    def stream_event(body: StreamEvent) -> None:
+        """What the server sends as text messages, told apart by `type`."""
+
+    @app.webhooks.post("stream-frame", tags=["stream"], summary="Header of a live picture (binary message)")
+    def stream_frame(body: FrameHeader) -> None:
+        """A binary message is `[u32 big-endian header length][this as JSON][JPEG]`; answer it with `frame_ack`."""
+
+    @app.webhooks.post("stream-message", tags=["stream"], summary="Any message of a client")
+    def stream_message(body: Annotated[ClientMessage, Body()]) -> None:
+        """What a client may send as text messages, told apart by `type`."""
+
+    for event in get_args(get_args(StreamEvent)[0]):
+        _document_one(app, event)
+
+
+def _document_one(app: FastAPI, event: type) -> None:
+    name = event.model_fields["type"].default  # type: ignore[attr-defined]  # every member of the union has it
+
+    def declared(body: object) -> None: ...
+
+    declared.__annotations__["body"] = event
+    declared.__doc__ = event.__doc__
+    summary = f"Event {name}"
+    app.webhooks.post(f"stream-event/{name}", tags=["stream"], summary=summary, operation_id=f"event_{name}")(declared)

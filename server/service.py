@@ -1,0 +1,122 @@
+"""Store, stream and hub opened together and closed in order; the HTTP app and the command line both stand on it."""
+
+from __future__ import annotations
+
+import fcntl
+import logging
+import os
+from collections.abc import AsyncIterator, Iterator
+from contextlib import asynccontextmanager, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from server import catalogue
+from server.errors import ServiceError
+from server.hub import Hub
+from server.schemas import Experiment, ExperimentCreate, Lifecycle, Readiness
+from server.settings import Settings
+from server.store import Store
+from server.store_errors import StoreError
+from server.stream import Rooms
+
+log = logging.getLogger("seed")
+
+FIRST_EXPERIMENT = ExperimentCreate(name="Stacking", task="stacking", adapter="robosuite", preset="paper_sim")
+
+
+class DataDirInUse(ServiceError):
+    """Another process of the service owns the data directory."""
+
+
+@dataclass(frozen=True)
+class Service:
+    """What a running service consists of."""
+
+    settings: Settings
+    store: Store
+    rooms: Rooms
+    hub: Hub
+
+    async def create(self, body: ExperimentCreate) -> Experiment:
+        """Check a new experiment and store it.
+
+        Raises:
+            ServiceError: 422, naming the wrong fields.
+        """
+        resolved = catalogue.check(body)
+        lockstep = resolved.lockstep if resolved.lockstep is not None else resolved.teacher is not None
+        return await self.store.create_experiment(resolved, lockstep=lockstep)
+
+    async def readiness(self) -> Readiness:
+        """Whether the database answers, and whether every experiment that should run still does."""
+        checks = {"store": "ok", "workers": "ok"}
+        try:
+            page = await self.store.experiments(limit=200)
+        except StoreError as error:
+            checks["store"] = f"{error}; {error.remedy}"
+        else:
+            failed = [e for e in page.items if e.lifecycle is Lifecycle.FAILED]
+            if failed:
+                checks["workers"] = "; ".join(f"experiment {e.id}: {e.failure}" for e in failed)
+        return Readiness(ready=checks["store"] == "ok", checks=checks)
+
+
+@asynccontextmanager
+async def opened(settings: Settings) -> AsyncIterator[Service]:
+    """A running service; on leaving, its workers end and its database closes.
+
+    Raises:
+        DataDirInUse: another process serves from this directory; two hubs on one store would run a robot twice.
+        StoreError: the database can't be used; the remedy says what to do.
+    """
+    with _owned(settings.data_dir):
+        store = await Store.open(settings.database_url, settings.data_dir)
+        try:
+            for touched in await store.recover():
+                log.warning("experiment %d was running when the service ended: it is paused now", touched)
+            rooms = Rooms(queue_limit=settings.viewer_queue)
+            hub = Hub(store, settings, rooms)
+            await hub.start()
+            try:
+                yield Service(settings, store, rooms, hub)
+            finally:
+                await hub.close()
+        finally:
+            await store.close()
+
+
+async def create_first(service: Service) -> Experiment | None:
+    """The *Stacking* experiment on robosuite, so that a fresh start has something to open; None where there is one."""
+    if not service.settings.create_first_experiment:
+        return None
+    if (await service.store.experiments(limit=1)).items:
+        return None
+    return await service.create(FIRST_EXPERIMENT)
+
+
+@contextmanager
+def _owned(directory: Path) -> Iterator[None]:
+    """Hold the directory's lock; the kernel lets go of it when the process ends, however it ends."""
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        lock = os.open(directory / ".lock", os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o644)
+    except OSError as error:
+        raise ServiceError(
+            503,
+            f"the data directory {directory} can't be written: {error.strerror}",
+            remedy="make it writable for this user, or choose another with --data-dir or SEED_DATA_DIR",
+            slug="read-only",
+        ) from error
+    try:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError as error:
+            raise DataDirInUse(
+                503,
+                f"another process is using the data directory {directory}",
+                remedy="stop that one first, or choose another directory with --data-dir",
+                slug="data-dir-in-use",
+            ) from error
+        yield
+    finally:
+        os.close(lock)

@@ -1,0 +1,80 @@
+"""Every setting of the service; each is also an environment variable `SEED_...` (docs/settings.md lists them)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field, field_validator
+from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
+
+
+class Settings(BaseSettings):
+    """Settings of the service. Command-line options win over the environment, the environment over the defaults."""
+
+    model_config = SettingsConfigDict(env_prefix="SEED_", extra="ignore", frozen=True)
+
+    host: Annotated[str, Field(description="address to listen on; anything but loopback needs SEED_ALLOW_REMOTE")] = (
+        "127.0.0.1"
+    )
+    port: Annotated[int, Field(ge=0, le=65535, description="TCP port to listen on; 0 takes a free one")] = 8000
+    data_dir: Annotated[
+        Path, Field(description="directory of the database, its backups, the images and the checkpoints")
+    ] = Path("data")
+    database_url: Annotated[
+        str | None,
+        Field(description="SQLAlchemy URL of the database, e.g. of PostgreSQL; none: SQLite in the data directory"),
+    ] = None
+    allow_remote: Annotated[
+        bool,
+        Field(
+            description="listen on an address that others can reach. There is no login: whoever reaches the port can "
+            "move the robot. Set it only inside a container or behind a proxy that authenticates"
+        ),
+    ] = False
+    allowed_hosts: Annotated[
+        tuple[str, ...],
+        NoDecode,
+        Field(
+            description="comma-separated host names, beside loopback, under which browsers may reach the service, "
+            "e.g. the name of the proxy in front of it"
+        ),
+    ] = ()
+    log_level: Annotated[
+        Literal["critical", "error", "warning", "info", "debug"], Field(description="least serious line to log")
+    ] = "info"
+    create_first_experiment: Annotated[
+        bool, Field(description="create a Stacking experiment on robosuite at start where there is no experiment")
+    ] = True
+    max_body_bytes: Annotated[
+        int, Field(ge=1024, description="largest body of a request, bytes; a larger one is refused with 413")
+    ] = 1_000_000
+    viewer_queue: Annotated[
+        int,
+        Field(ge=8, description="events that may wait for one viewer of a stream; one more and it is disconnected"),
+    ] = 256
+    ping_interval: Annotated[
+        float, Field(gt=0, description="seconds between the pings that find dead viewers of a stream")
+    ] = 20.0
+    robot_deadline: Annotated[
+        float, Field(gt=0, description="seconds after which a robot worker that doesn't answer counts as hung")
+    ] = 120.0
+    learner_deadline: Annotated[
+        float, Field(gt=0, description="seconds after which a learner worker that doesn't answer counts as hung")
+    ] = 120.0
+    checkpoint_every: Annotated[int, Field(ge=1, description="feedback between two checkpoints of the learner")] = 50
+
+    @field_validator("allowed_hosts", mode="before")
+    @classmethod
+    def _split(cls, value: object) -> object:
+        """The environment gives one string: `a.example,b.example`."""
+        return (
+            tuple(part.strip().lower() for part in value.split(",") if part.strip())
+            if isinstance(value, str)
+            else value
+        )
+
+    @property
+    def loopback(self) -> bool:
+        """Whether only this machine can reach the service."""
+        return self.host in ("localhost", "::1") or self.host.startswith("127.")

@@ -1,0 +1,278 @@
+"""The WebSocket of an experiment: snapshot, events, newest frames, and what a viewer may send.
+
+Events are serialised once and queued per viewer; frames are never queued, the newest of a camera replaces the one
+before. A viewer that doesn't keep up is disconnected (1013) and finds its way back by a snapshot: nobody waits for it.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import struct
+from collections import deque
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from fastapi import WebSocket, WebSocketDisconnect
+from pydantic import TypeAdapter, ValidationError
+
+from server.errors import problem, problem_of
+from server.hub import Hub
+from server.schemas import (
+    Acknowledged,
+    ClientFeedback,
+    ClientFrameAck,
+    ClientHalt,
+    ClientMessage,
+    ClientPing,
+    ClientUndo,
+    Feedback,
+    FeedbackCreate,
+    FrameHeader,
+    Pong,
+    Refused,
+    StreamEvent,
+)
+from server.store import Store
+from server.store_errors import NotFound
+
+TRY_AGAIN_LATER = 1013
+POLICY_VIOLATION = 1008
+RUBBISH_LIMIT = 20
+"""Unreadable messages after which a viewer is disconnected; a page of ours sends none."""
+INBOX_LIMIT = 64
+"""Messages of one viewer that may wait for the store."""
+FAREWELL_SECONDS = 30.0
+"""How long a close frame may wait for a viewer that has stopped reading."""
+
+_client_message: TypeAdapter[ClientMessage] = TypeAdapter(ClientMessage)
+
+
+def pack(header: FrameHeader, jpeg: bytes) -> bytes:
+    """A binary message: `[u32 big-endian header length][JSON header][JPEG]`."""
+    encoded = header.model_dump_json().encode()
+    return struct.pack(">I", len(encoded)) + encoded + jpeg
+
+
+class Outbox:
+    """What waits for one viewer. Fed without blocking; taken from by one sender."""
+
+    def __init__(self, limit: int) -> None:
+        self._limit = limit
+        self._events: deque[str] = deque()
+        self._frames: dict[str, bytes] = {}
+        self._awaiting_ack = False
+        self._ready = asyncio.Event()
+        self._overflowed = asyncio.Event()
+
+    def event(self, text: str) -> None:
+        """Queue an event; a full queue marks the viewer as overflowed instead."""
+        if len(self._events) >= self._limit:
+            self._overflowed.set()
+            return
+        self._events.append(text)
+        self._ready.set()
+
+    def frame(self, camera: str, packed: bytes) -> None:
+        """Keep the newest frame of a camera; it takes the place in line of the one it replaces."""
+        self._frames[camera] = packed
+        self._ready.set()
+
+    def acknowledged(self) -> None:
+        """The viewer has drawn its frame: the next may go."""
+        self._awaiting_ack = False
+        self._ready.set()
+
+    @property
+    def overflowed(self) -> bool:
+        """Whether events were lost to this viewer."""
+        return self._overflowed.is_set()
+
+    async def overflow(self) -> None:
+        """Wait until the viewer has overflowed."""
+        await self._overflowed.wait()
+
+    async def next(self) -> str | bytes:
+        """The next message: every waiting event before any frame, and one unacknowledged frame at a time."""
+        while True:
+            if self._events:
+                return self._events.popleft()
+            if self._frames and not self._awaiting_ack:
+                self._awaiting_ack = True
+                return self._frames.pop(next(iter(self._frames)))
+            self._ready.clear()
+            await self._ready.wait()
+
+
+class Rooms:
+    """Who watches which experiment. The hub publishes here (its `Publisher`); used from the event loop only."""
+
+    def __init__(self, *, queue_limit: int) -> None:
+        self._queue_limit = queue_limit
+        self._rooms: dict[int, set[Outbox]] = {}
+
+    def publish(self, experiment_id: int, event: StreamEvent) -> None:
+        """Queue an event for every viewer of the experiment; never blocks."""
+        room = self._rooms.get(experiment_id)
+        if room:
+            text = event.model_dump_json()
+            for outbox in room:
+                outbox.event(text)
+
+    def publish_frame(self, experiment_id: int, header: FrameHeader, jpeg: bytes) -> None:
+        """Offer a frame to every viewer of the experiment; never blocks."""
+        room = self._rooms.get(experiment_id)
+        if room:
+            packed = pack(header, jpeg)
+            for outbox in room:
+                outbox.frame(header.camera, packed)
+
+    @contextmanager
+    def join(self, experiment_id: int) -> Iterator[Outbox]:
+        """An outbox that receives everything published from now on."""
+        outbox = Outbox(self._queue_limit)
+        room = self._rooms.setdefault(experiment_id, set())
+        room.add(outbox)
+        try:
+            yield outbox
+        finally:
+            room.discard(outbox)
+            if not room:
+                self._rooms.pop(experiment_id, None)
+
+
+class Connection:
+    """One viewer's WebSocket on one experiment."""
+
+    def __init__(self, socket: WebSocket, outbox: Outbox, hub: Hub, store: Store, experiment_id: int) -> None:
+        self._socket = socket
+        self._outbox = outbox
+        self._hub = hub
+        self._store = store
+        self._experiment_id = experiment_id
+        self._inbox: asyncio.Queue[ClientFeedback | ClientUndo] = asyncio.Queue(INBOX_LIMIT)
+        self._halts: set[asyncio.Task[None]] = set()
+        self._rubbish = 0
+
+    async def serve(self) -> None:
+        """Run until either side ends."""
+        parts = [
+            asyncio.create_task(part) for part in (self._send(), self._receive(), self._work(), self._outbox.overflow())
+        ]
+        done, pending = await asyncio.wait(parts, return_when=asyncio.FIRST_COMPLETED)
+        for task in pending:
+            task.cancel()
+        await asyncio.gather(*pending, return_exceptions=True)
+        # a halt is never dropped because its viewer has left
+        await asyncio.gather(*self._halts, return_exceptions=True)
+        if self._outbox.overflowed:
+            await self._close(TRY_AGAIN_LATER, "too slow: reconnect for a snapshot")
+        elif self._rubbish >= RUBBISH_LIMIT:
+            await self._close(POLICY_VIOLATION, "too many unreadable messages")
+        for task in done:
+            error = task.exception()
+            if error is not None and not isinstance(error, WebSocketDisconnect):
+                raise error
+
+    async def _send(self) -> None:
+        while True:
+            message = await self._outbox.next()
+            if isinstance(message, str):
+                await self._socket.send_text(message)
+            else:
+                await self._socket.send_bytes(message)
+
+    async def _receive(self) -> None:
+        while self._rubbish < RUBBISH_LIMIT:
+            received = await self._socket.receive()
+            if received["type"] == "websocket.disconnect":
+                return
+            self._take(received.get("text"))
+
+    def _take(self, text: str | None) -> None:
+        if text is None:
+            self._refuse_rubbish("a client sends text messages only")
+            return
+        try:
+            message = _client_message.validate_json(text)
+        except ValidationError as error:
+            first = error.errors(include_input=False, include_url=False)[0]
+            self._refuse_rubbish(".".join([*map(str, first["loc"]), first["msg"]]), _request_id(text))
+            return
+        if isinstance(message, ClientFrameAck):
+            self._outbox.acknowledged()
+        elif isinstance(message, ClientPing):
+            self._answer(Pong())
+        elif isinstance(message, ClientHalt):
+            # beside the queue: a stop never waits for a click's commit
+            task = asyncio.create_task(self._halt(message))
+            self._halts.add(task)
+            task.add_done_callback(self._halts.discard)
+        else:
+            try:
+                self._inbox.put_nowait(message)
+            except asyncio.QueueFull:
+                details = problem(
+                    503, "too many messages wait for an answer", remedy="wait for the answers, send again"
+                )
+                self._answer(Refused(request_id=_id_of(message), problem=details))
+
+    async def _work(self) -> None:
+        while True:
+            message = await self._inbox.get()
+            # a click that has been taken from the wire is carried through, even if its viewer leaves meanwhile
+            await asyncio.shield(asyncio.ensure_future(self._judge(message)))
+
+    async def _judge(self, message: ClientFeedback | ClientUndo) -> None:
+        try:
+            if isinstance(message, ClientUndo):
+                feedback = await self._undo(message)
+            else:
+                click = FeedbackCreate(click_id=message.click_id, value=message.value, trainer=message.trainer)
+                feedback, _ = await self._hub.feedback(message.proposal_id, click, experiment_id=self._experiment_id)
+        except Exception as error:  # noqa: BLE001  every error goes back to the viewer in one shape; the stream lives on
+            self._answer(Refused(request_id=_id_of(message), problem=problem_of(error)))
+        else:
+            self._answer(Acknowledged(request_id=_id_of(message), feedback=feedback))
+
+    async def _undo(self, message: ClientUndo) -> Feedback:
+        feedback = await self._store.feedback(message.feedback_id)
+        if feedback.experiment_id != self._experiment_id:
+            raise NotFound("feedback of this experiment", message.feedback_id)
+        return await self._hub.undo(message.feedback_id)
+
+    async def _halt(self, message: ClientHalt) -> None:
+        try:
+            await self._hub.act(self._experiment_id, "halt")
+        except Exception as error:  # noqa: BLE001  as above
+            self._answer(Refused(request_id=message.request_id, problem=problem_of(error)))
+        else:
+            self._answer(Acknowledged(request_id=message.request_id))
+
+    def _refuse_rubbish(self, detail: str, request_id: str | None = None) -> None:
+        self._rubbish += 1
+        details = problem(422, detail, remedy="send one of: feedback, undo, halt, frame_ack, ping; see docs/api.md")
+        self._answer(Refused(request_id=request_id, problem=details))
+
+    def _answer(self, event: Acknowledged | Refused | Pong) -> None:
+        self._outbox.event(event.model_dump_json())
+
+    async def _close(self, code: int, reason: str) -> None:
+        # the close frame stands behind what the viewer hasn't read
+        with contextlib.suppress(TimeoutError, RuntimeError, WebSocketDisconnect):
+            await asyncio.wait_for(self._socket.close(code, reason), FAREWELL_SECONDS)
+
+
+def _id_of(message: ClientFeedback | ClientUndo) -> str:
+    return message.click_id if isinstance(message, ClientFeedback) else message.request_id
+
+
+def _request_id(text: str) -> str | None:
+    """The id that a wrong message carries, so that its sender knows which one was refused."""
+    try:
+        body = json.loads(text)
+    except (ValueError, RecursionError):
+        return None
+    found = body.get("click_id", body.get("request_id")) if isinstance(body, dict) else None
+    return found if isinstance(found, str) and len(found) <= 64 else None
