@@ -28,7 +28,7 @@ PLACE_BOX = (0.015, 0.008, 0.025)
 STACKED_XY = 0.03
 STACKED_Z = 0.010
 RAISED = 0.02
-"""A block this much above where the table would hold it is between the fingers (or on another block)."""
+"""A block this much above where the table would hold it is between the fingers, or on the other block."""
 REACH_MARGIN = 0.005
 """A block this little outside the workspace can still be taken off-centre."""
 
@@ -97,16 +97,18 @@ class Stacking:
         return tuple(found)
 
     def subgoal(self, state: Array) -> int:
-        """0 (pick) until A is in the hand, then 1 (place)."""
-        s = state.tolist()
-        return 1 if _stacked(s) or _held(s) else 0
+        """0 (pick) until A is off the table, then 1 (place)."""
+        return int(_raised(state.tolist()))
 
     def judge(self, state: Array, call: SkillCall) -> int:
-        """+1 for a pick at block A before it is held, or a place on block B while it is; otherwise -1."""
+        """+1 for a pick at block A while it is on the table, or a place on block B while A is raised; otherwise -1.
+
+        A block on the other that isn't let go of yet looks as if it were stacked; to place it is still right.
+        """
         s = state.tolist()
-        if call.skill == "place" and _held(s):
+        if call.skill == "place" and _raised(s):
             return _judge_box(call, (s[3], s[4], s[5] + PLACE_ABOVE), PLACE_BOX)
-        if call.skill == "pick" and not _held(s) and not _stacked(s):
+        if call.skill == "pick" and not _raised(s):
             return _judge_box(call, (s[0], s[1], s[2]), PICK_BOX)
         return -1
 
@@ -130,9 +132,9 @@ def _stacked(s: list[float]) -> bool:
     return math.hypot(s[0] - s[3], s[1] - s[4]) <= STACKED_XY and abs(s[2] - s[5] - HALF_A - HALF_B) <= STACKED_Z
 
 
-def _held(s: list[float]) -> bool:
-    """Whether A is in the hand, from the state alone: nothing else holds it up."""
-    return s[2] > table.HEIGHT + HALF_A + RAISED and not _stacked(s)
+def _raised(s: list[float]) -> bool:
+    """Whether A is off the table: as long as the task isn't solved, that is in the hand."""
+    return s[2] > table.HEIGHT + HALF_A + RAISED
 
 
 def _within(value: float, bounds: tuple[float, float]) -> bool:
