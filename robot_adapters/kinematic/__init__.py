@@ -1,0 +1,47 @@
+"""The kinematic adapter: no physics, skills take effect at once. For learner studies, load tests and teaching."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from pydantic import BaseModel, ConfigDict, Field
+
+if TYPE_CHECKING:
+    from robot_adapters.base import Adapter
+
+
+class KinematicSettings(BaseModel):
+    """Settings of the kinematic adapter."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    draw: bool = Field(True, description="Whether there are cameras; without, a study doesn't pay for pictures.")
+    jpeg_quality: int = Field(90, ge=30, le=100, description="JPEG quality of the pictures.")
+    step_seconds: float = Field(
+        0.0, ge=0, le=1, description="Duration of one set-point; 0 lets every skill take effect at once."
+    )
+
+
+class KinematicFactory:
+    """Builds the adapter. `AdapterFactory` of the entry point `kinematic`."""
+
+    name = "kinematic"
+    description = "A drawn table without physics: skills take effect at once, and fail where they would miss."
+    simulated = True
+    tasks: tuple[str, ...] = ("reaching", "stacking")
+    settings: type[BaseModel] = KinematicSettings
+
+    def __call__(self, task: str, settings: BaseModel) -> Adapter:
+        """Build the adapter; takes milliseconds.
+
+        Raises:
+            UnknownName: there is no such task.
+        """
+        # here and not above: listing adapters shouldn't load a drawing library
+        from robot_adapters.kinematic.adapter import KinematicAdapter  # noqa: PLC0415
+        from robot_adapters.registry import task as task_by_name  # noqa: PLC0415
+
+        return KinematicAdapter(task_by_name(task), KinematicSettings.model_validate(settings.model_dump()))
+
+
+FACTORY = KinematicFactory()
