@@ -1,0 +1,66 @@
+"""Whether an approved skill may run now: pure functions of what the store has just re-read (DESIGN.md section 4, 7)."""
+
+from __future__ import annotations
+
+from server.schemas import GateDecision, Lifecycle, Mode, Verdict
+
+OPEN = GateDecision(allowed=True, reason="open")
+
+
+def decide(
+    mode: Mode,
+    verdict: Verdict | None,
+    lifecycle: Lifecycle,
+    halted: bool,
+    simulated: bool,
+    operator_present: bool,
+    workspace_ok: bool,
+    observation_current: bool,
+) -> GateDecision:
+    """The decision for a training proposal; the reason names the first thing that keeps the gate shut."""
+    if halted:
+        return _shut("the emergency stop is latched")
+    if verdict is not Verdict.GOOD:
+        return _shut("no verdict" if verdict is None else f"the verdict is {verdict.value}")
+    if mode is not Mode.EXECUTE_APPROVED:
+        return _shut("the mode is propose only")
+    if lifecycle is not Lifecycle.RUNNING:
+        return _shut(f"the experiment is {lifecycle.value}")
+    if not simulated and not operator_present:
+        return _shut("a real robot needs an operator present")
+    return _world(workspace_ok, observation_current)
+
+
+def decide_evaluation(
+    verdict: Verdict | None,
+    lifecycle: Lifecycle,
+    halted: bool,
+    simulated: bool,
+    workspace_ok: bool,
+    observation_current: bool,
+) -> GateDecision:
+    """The decision for a rollout of the deterministic policy: nobody watches, so only simulators may move.
+
+    The mode doesn't matter: it is about proposals that people judge. The experiment must not be training meanwhile.
+    """
+    if halted:
+        return _shut("the emergency stop is latched")
+    if verdict is not Verdict.GOOD:
+        return _shut("the evaluation hasn't approved it")
+    if not simulated:
+        return _shut("evaluations move simulated robots only")
+    if lifecycle not in (Lifecycle.CREATED, Lifecycle.PAUSED, Lifecycle.FINISHED):
+        return _shut(f"the experiment is {lifecycle.value}")
+    return _world(workspace_ok, observation_current)
+
+
+def _world(workspace_ok: bool, observation_current: bool) -> GateDecision:
+    if not workspace_ok:
+        return _shut("a parameter lies outside the workspace")
+    if not observation_current:
+        return _shut("the scene has changed since the observation")
+    return OPEN
+
+
+def _shut(reason: str) -> GateDecision:
+    return GateDecision(allowed=False, reason=reason)

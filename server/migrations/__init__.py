@@ -1,0 +1,1 @@
+"""Alembic migrations, run by `server.store_upgrade` on a connection that it hands over."""

@@ -1,0 +1,347 @@
+"""The tables. What must never be doubled or dangling is a constraint here too, not only a rule of the store."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from typing import Any
+
+from sqlalchemy import (
+    JSON,
+    CheckConstraint,
+    DateTime,
+    Dialect,
+    ForeignKey,
+    Index,
+    MetaData,
+    String,
+    Text,
+    TypeDecorator,
+    UniqueConstraint,
+    text,
+)
+from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column, relationship
+
+NAMING = {
+    "ix": "ix_%(table_name)s_%(column_0_N_name)s",
+    "uq": "uq_%(table_name)s_%(column_0_N_name)s",
+    "ck": "ck_%(table_name)s_%(constraint_name)s",
+    "fk": "fk_%(table_name)s_%(column_0_name)s",
+    "pk": "pk_%(table_name)s",
+}
+"""Every constraint has a name, so that a later migration can alter it on SQLite too."""
+
+
+class UtcDateTime(TypeDecorator[datetime]):
+    """An aware UTC time. SQLite keeps no zone, so it is put back when read."""
+
+    impl = DateTime(timezone=True)
+    cache_ok = True
+
+    def process_bind_param(self, value: datetime | None, dialect: Dialect) -> datetime | None:
+        return value.astimezone(UTC) if value is not None else None
+
+    def process_result_value(self, value: datetime | None, dialect: Dialect) -> datetime | None:
+        return value.replace(tzinfo=UTC) if value is not None and value.tzinfo is None else value
+
+
+class Base(DeclarativeBase):
+    """Base of every table."""
+
+    metadata = MetaData(naming_convention=NAMING)
+    type_annotation_map = {  # noqa: RUF012 - the name and shape SQLAlchemy asks for
+        datetime: UtcDateTime(),
+        dict[str, Any]: JSON(),
+        list[Any]: JSON(),
+        str: String(),
+    }
+
+
+def _one_of(column: str, *values: str) -> CheckConstraint:
+    listed = ", ".join(f"'{value}'" for value in values)
+    return CheckConstraint(f"{column} IN ({listed})", name=column)
+
+
+def _at_most_one(name: str, column: str, where: str) -> Index:
+    """A unique index over the rows that satisfy `where` only."""
+    return Index(name, column, unique=True, sqlite_where=text(where), postgresql_where=text(where))
+
+
+class ExperimentRow(Base):
+    """An experiment with its counters, which change in the transactions that they count."""
+
+    __tablename__ = "experiment"
+    __table_args__ = (
+        _one_of("lifecycle", "created", "running", "paused", "finished", "failed", "archived"),
+        _one_of("mode", "propose_only", "execute_approved"),
+        _one_of("aggregation", "first", "majority", "unanimous"),
+    )
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    name: Mapped[str]
+    task: Mapped[str]
+    adapter: Mapped[str]
+    algorithm: Mapped[str]
+    preset: Mapped[str | None]
+    settings: Mapped[dict[str, Any]]
+    adapter_settings: Mapped[dict[str, Any]]
+    seed: Mapped[int]
+    mode: Mapped[str]
+    aggregation: Mapped[str]
+    feedback_timeout: Mapped[float | None]
+    teacher: Mapped[str | None]
+    lockstep: Mapped[bool]
+    lifecycle: Mapped[str]
+    halted: Mapped[bool] = mapped_column(default=False)
+    failure: Mapped[str | None] = mapped_column(Text)
+    feedback: Mapped[int] = mapped_column(default=0)
+    good: Mapped[int] = mapped_column(default=0)
+    neutral: Mapped[int] = mapped_column(default=0)
+    bad: Mapped[int] = mapped_column(default=0)
+    late: Mapped[int] = mapped_column(default=0)
+    proposals: Mapped[int] = mapped_column(default=0)
+    executions: Mapped[int] = mapped_column(default=0)
+    low_level_steps: Mapped[int] = mapped_column(default=0)
+    successes: Mapped[int] = mapped_column(default=0)
+    episodes: Mapped[int] = mapped_column(default=0)
+    violations: Mapped[int] = mapped_column(default=0)
+    created_at: Mapped[datetime]
+    updated_at: Mapped[datetime]
+
+
+class EpisodeRow(Base):
+    """From one reset to the next."""
+
+    __tablename__ = "episode"
+    __table_args__ = (
+        UniqueConstraint("experiment_id", "number"),
+        _one_of("outcome", "success", "horizon", "violation", "reset", "interrupted"),
+        _one_of("purpose", "training", "evaluation"),
+        CheckConstraint("(outcome IS NULL) = (ended_at IS NULL)", name="ended"),
+        _at_most_one("uq_episode_open", "experiment_id", "ended_at IS NULL"),
+    )
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    experiment_id: Mapped[int] = mapped_column(ForeignKey("experiment.id"))
+    number: Mapped[int]
+    purpose: Mapped[str]
+    seed: Mapped[int]
+    outcome: Mapped[str | None]
+    started_at: Mapped[datetime]
+    ended_at: Mapped[datetime | None]
+
+
+class ObservationRow(Base):
+    """A state as the robot saw it. `uid` is the adapter's id: the same uid means that nothing moved."""
+
+    __tablename__ = "observation"
+    __table_args__ = (UniqueConstraint("experiment_id", "uid"),)
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    experiment_id: Mapped[int] = mapped_column(ForeignKey("experiment.id"))
+    uid: Mapped[str]
+    state: Mapped[list[Any]]
+    taken_at: Mapped[float]
+
+
+class ProposalRow(Base):
+    """A skill call with the pictures it was drawn on: `views` holds image hash and overlay together."""
+
+    __tablename__ = "proposal"
+    __table_args__ = (
+        UniqueConstraint("experiment_id", "number"),
+        _one_of("purpose", "training", "evaluation"),
+        _one_of("verdict", "good", "neutral", "bad"),
+        _one_of("close_reason", "judged", "timed_out", "withdrawn", "interrupted"),
+        CheckConstraint("(close_reason IS NULL) = (closed_at IS NULL)", name="closed"),
+        CheckConstraint(
+            "(verdict IS NULL AND (close_reason IS NULL OR close_reason <> 'judged'))"
+            " OR (verdict IS NOT NULL AND close_reason IS NOT NULL AND close_reason = 'judged')",
+            name="judged",
+        ),
+        CheckConstraint("(gate_allowed IS NULL) = (gate_reason IS NULL)", name="gate"),
+        _at_most_one("uq_proposal_open", "experiment_id", "closed_at IS NULL"),
+    )
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    experiment_id: Mapped[int] = mapped_column(ForeignKey("experiment.id"))
+    episode_id: Mapped[int] = mapped_column(ForeignKey("episode.id"), index=True)
+    observation_id: Mapped[int] = mapped_column(ForeignKey("observation.id"), index=True)
+    number: Mapped[int]
+    purpose: Mapped[str]
+    skill: Mapped[str]
+    parameters: Mapped[list[Any]]
+    parameter_names: Mapped[list[Any]]
+    digest: Mapped[str] = mapped_column(String(64))
+    predicted_feedback: Mapped[float]
+    skill_probabilities: Mapped[dict[str, Any]]
+    policy_version: Mapped[int]
+    subgoal: Mapped[str | None]
+    views: Mapped[list[Any]]
+    electorate: Mapped[list[Any]]
+    opened_at: Mapped[datetime]
+    closed_at: Mapped[datetime | None]
+    close_reason: Mapped[str | None]
+    verdict: Mapped[str | None]
+    gate_allowed: Mapped[bool | None]
+    gate_reason: Mapped[str | None]
+
+    episode: Mapped[EpisodeRow] = relationship(lazy="joined", innerjoin=True)
+    observation: Mapped[ObservationRow] = relationship(lazy="joined", innerjoin=True)
+
+
+class TrainerRow(Base):
+    """Someone who judges."""
+
+    __tablename__ = "trainer"
+    __table_args__ = (UniqueConstraint("name", "kind"), _one_of("kind", "person", "teacher", "evaluation"))
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    name: Mapped[str]
+    kind: Mapped[str]
+    created_at: Mapped[datetime]
+
+
+class FeedbackRow(Base):
+    """A click. Rows are never deleted; an undone one keeps its place with `undone_at`."""
+
+    __tablename__ = "feedback"
+    __table_args__ = (
+        UniqueConstraint("click_id"),
+        CheckConstraint("value IN (-1, 0, 1)", name="value"),
+        _one_of("status", "stored", "late"),
+        Index(
+            "uq_feedback_one_vote",
+            "proposal_id",
+            "trainer_id",
+            unique=True,
+            sqlite_where=text("status = 'stored' AND undone_at IS NULL"),
+            postgresql_where=text("status = 'stored' AND undone_at IS NULL"),
+        ),
+        Index("ix_feedback_experiment_id_id", "experiment_id", "id"),
+    )
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    click_id: Mapped[str] = mapped_column(String(64))
+    experiment_id: Mapped[int] = mapped_column(ForeignKey("experiment.id"))
+    proposal_id: Mapped[int] = mapped_column(ForeignKey("proposal.id"), index=True)
+    trainer_id: Mapped[int] = mapped_column(ForeignKey("trainer.id"))
+    value: Mapped[int]
+    status: Mapped[str]
+    received_at: Mapped[datetime]
+    undone_at: Mapped[datetime | None]
+
+    trainer: Mapped[TrainerRow] = relationship(lazy="joined", innerjoin=True)
+
+
+class ExecutionRow(Base):
+    """One run of an approved call: at most one a proposal, ever."""
+
+    __tablename__ = "execution"
+    __table_args__ = (
+        UniqueConstraint("proposal_id"),
+        _one_of("outcome", "succeeded", "failed", "stopped", "interrupted"),
+        CheckConstraint("(outcome IS NULL) = (ended_at IS NULL)", name="ended"),
+        _at_most_one("uq_execution_running", "experiment_id", "ended_at IS NULL"),
+        Index("ix_execution_experiment_id_id", "experiment_id", "id"),
+    )
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    experiment_id: Mapped[int] = mapped_column(ForeignKey("experiment.id"))
+    proposal_id: Mapped[int] = mapped_column(ForeignKey("proposal.id"))
+    started_at: Mapped[datetime]
+    ended_at: Mapped[datetime | None]
+    outcome: Mapped[str | None]
+    end_reason: Mapped[str | None]
+    low_level_steps: Mapped[int] = mapped_column(default=0)
+    task_success: Mapped[bool] = mapped_column(default=False)
+
+    proposal: Mapped[ProposalRow] = relationship(lazy="joined", innerjoin=True)
+
+
+class ViolationRow(Base):
+    """A safety violation seen in an execution."""
+
+    __tablename__ = "violation"
+    __table_args__ = (_one_of("kind", "damage", "manual_reset"),)
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    experiment_id: Mapped[int] = mapped_column(ForeignKey("experiment.id"), index=True)
+    execution_id: Mapped[int] = mapped_column(ForeignKey("execution.id"), index=True)
+    kind: Mapped[str]
+    detail: Mapped[str] = mapped_column(Text)
+    at: Mapped[datetime]
+
+
+class MetricRow(Base):
+    """Values at one amount of feedback."""
+
+    __tablename__ = "metric"
+    __table_args__ = (Index("ix_metric_experiment_id_id", "experiment_id", "id"),)
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    experiment_id: Mapped[int] = mapped_column(ForeignKey("experiment.id"))
+    feedback: Mapped[int]
+    at: Mapped[datetime]
+    data: Mapped[dict[str, Any]]
+
+
+class EvaluationRow(Base):
+    """Rollouts of the deterministic policy; `done` of `rollouts` are over."""
+
+    __tablename__ = "evaluation"
+    __table_args__ = (
+        CheckConstraint("successes >= 0 AND successes <= done AND done <= rollouts", name="counts"),
+        Index("ix_evaluation_experiment_id_id", "experiment_id", "id"),
+    )
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    experiment_id: Mapped[int] = mapped_column(ForeignKey("experiment.id"))
+    feedback: Mapped[int]
+    policy_version: Mapped[int]
+    rollouts: Mapped[int]
+    done: Mapped[int] = mapped_column(default=0)
+    successes: Mapped[int] = mapped_column(default=0)
+    low_level_steps: Mapped[int] = mapped_column(default=0)
+    seed: Mapped[int]
+    started_at: Mapped[datetime]
+    ended_at: Mapped[datetime | None]
+
+
+class CheckpointRow(Base):
+    """A saved learner; the file is named by the store's caller."""
+
+    __tablename__ = "checkpoint"
+    __table_args__ = (Index("ix_checkpoint_experiment_id_id", "experiment_id", "id"),)
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    experiment_id: Mapped[int] = mapped_column(ForeignKey("experiment.id"))
+    policy_version: Mapped[int]
+    last_feedback_id: Mapped[int]
+    sha256: Mapped[str] = mapped_column(String(64))
+    created_at: Mapped[datetime]
+
+
+class EventRow(Base):
+    """One line of the journal, written in the transaction that causes it."""
+
+    __tablename__ = "event"
+    __table_args__ = (Index("ix_event_experiment_id_id", "experiment_id", "id"),)
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    experiment_id: Mapped[int] = mapped_column(ForeignKey("experiment.id"))
+    kind: Mapped[str]
+    payload: Mapped[dict[str, Any]]
+    at: Mapped[datetime]
+
+
+class IdempotencyRow(Base):
+    """The answer that a retried write gets again."""
+
+    __tablename__ = "idempotency"
+
+    key: Mapped[str] = mapped_column(primary_key=True)
+    route: Mapped[str] = mapped_column(primary_key=True)
+    body_digest: Mapped[str] = mapped_column(String(64))
+    status: Mapped[int]
+    body: Mapped[str] = mapped_column(Text)
+    created_at: Mapped[datetime] = mapped_column(index=True)

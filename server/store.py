@@ -1,0 +1,240 @@
+"""The one door to the database: every read and write of the service, as wire models.
+
+A write returns only after its commit. Reads see what is committed. Errors are those of `server.store_errors`.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, TypeVar
+
+from sqlalchemy.orm import Session
+
+from robot_adapters.base import SafetyViolation
+from server import schemas, store_executions, store_experiments, store_proposals, store_records
+from server import store_wire as wire
+from server.database import Database, resolve
+from server.lifecycle import Verb
+from server.store_errors import BadCursor, Conflict, Full, NewerDatabase, NotFound, ReadOnly, StoreError
+from server.store_reads import Reads
+from server.store_upgrade import prepare
+from server.store_values import (
+    EpisodeOutcome,
+    NewProposal,
+    NewView,
+    Purpose,
+    StoredLabel,
+    StoredResponse,
+    Submission,
+    Undone,
+)
+
+__all__ = [
+    "BadCursor",
+    "Conflict",
+    "Full",
+    "NewProposal",
+    "NewView",
+    "NewerDatabase",
+    "NotFound",
+    "ReadOnly",
+    "Store",
+    "StoreError",
+    "StoredLabel",
+    "StoredResponse",
+    "Submission",
+    "Undone",
+]
+
+T = TypeVar("T")
+
+
+class Store(Reads):
+    """Every query of the service. Open it with `Store.open`."""
+
+    @classmethod
+    async def open(cls, url: str | None, data_dir: Path, *, backup: bool = True) -> Store:
+        """Create or migrate the database (a SQLite one is backed up before) and open it.
+
+        url: of SQLAlchemy; None is SQLite in `data_dir`.
+
+        Raises:
+            NewerDatabase: a newer version wrote it. ReadOnly, Full: a migration is due and can't be written.
+        """
+        target = resolve(url, data_dir)
+        await asyncio.to_thread(_make_directory, data_dir)
+        await asyncio.to_thread(prepare, target, data_dir, backup=backup)
+        return cls(Database(target))
+
+    async def close(self) -> None:
+        """Commit what waits and let go of the database."""
+        await self._database.close()
+
+    # --- experiments ------------------------------------------------------------------------------------------------
+
+    async def create_experiment(self, body: schemas.ExperimentCreate, *, lockstep: bool) -> schemas.Experiment:
+        """Store a checked experiment."""
+        return await self._write(lambda s: wire.experiment(store_experiments.create(s, body, lockstep=lockstep)))
+
+    async def update_experiment(self, experiment_id: int, change: schemas.ExperimentUpdate) -> schemas.Experiment:
+        """Change name, mode or time-out; a field left out stays."""
+        return await self._write(lambda s: wire.experiment(store_experiments.update(s, experiment_id, change)))
+
+    async def transition(self, experiment_id: int, verb: Verb, failure: str | None = None) -> schemas.Experiment:
+        """Apply a verb of `server.lifecycle`. Leaving `running` closes the open proposal in the same transaction."""
+        return await self._write(
+            lambda s: wire.experiment(store_experiments.transition(s, experiment_id, verb, failure))
+        )
+
+    async def halt(self, experiment_id: int) -> schemas.Experiment:
+        """Latch the emergency stop. Never refused; again, it changes nothing."""
+        return await self.transition(experiment_id, "halt")
+
+    async def rearm(self, experiment_id: int) -> schemas.Experiment:
+        """Unlatch the emergency stop."""
+        return await self.transition(experiment_id, "rearm")
+
+    async def recover(self) -> list[int]:
+        """Settle what an ended process left behind; the ids of the experiments that it concerned."""
+        return await self._write(store_experiments.recover)
+
+    async def begin_episode(self, experiment_id: int, seed: int, purpose: Purpose = "training") -> int:
+        """Begin an episode and return its number; one that goes on ends by reset."""
+        return await self._write(lambda s: store_experiments.begin_episode(s, experiment_id, seed, purpose).number)
+
+    async def end_episode(self, experiment_id: int, outcome: EpisodeOutcome) -> None:
+        """End the episode that goes on, if any."""
+        await self._write(lambda s: store_experiments.end_episode(s, experiment_id, outcome))
+
+    # --- proposals and feedback -------------------------------------------------------------------------------------
+
+    async def open_proposal(self, new: NewProposal) -> schemas.Proposal:
+        """Store a proposal with its observation and pictures. Conflict where it must not be open now."""
+        return await self._write(lambda s: wire.proposal(store_proposals.open_proposal(s, new)))
+
+    async def close_proposal(self, proposal_id: int, reason: schemas.CloseReason) -> schemas.Proposal:
+        """Close without a verdict; a closed one stays as it is."""
+        return await self._write(lambda s: wire.proposal(store_proposals.close_proposal(s, proposal_id, reason)))
+
+    async def submit_feedback(
+        self, proposal_id: int, click: schemas.FeedbackCreate, *, kind: str = "person"
+    ) -> Submission:
+        """Store a click: counted, late, or known already. See `store_proposals.submit`."""
+        return await self._write(lambda s: store_proposals.submit(s, proposal_id, click, kind))
+
+    async def undo_feedback(self, feedback_id: int) -> Undone:
+        """Take the newest click back while nothing has moved."""
+        return await self._write(lambda s: store_proposals.undo(s, feedback_id))
+
+    # --- gate and executions ----------------------------------------------------------------------------------------
+
+    async def record_evaluation_approval(self, proposal_id: int) -> schemas.Proposal:
+        """The verdict +1 of an evaluation for its own proposal."""
+        return await self._write(lambda s: wire.proposal(store_proposals.approve_evaluation(s, proposal_id)))
+
+    async def begin_execution(
+        self,
+        proposal_id: int,
+        *,
+        current_observation_id: str,
+        operator_present: bool,
+        simulated: bool,
+        workspace_ok: bool,
+    ) -> tuple[schemas.GateDecision, schemas.Execution | None]:
+        """The gate's decision, stored, and the execution that is `started` by it; nothing may move before this."""
+
+        def begin(session: Session) -> tuple[schemas.GateDecision, schemas.Execution | None]:
+            decision, row = store_executions.begin(
+                session,
+                proposal_id,
+                current_observation_id=current_observation_id,
+                operator_present=operator_present,
+                simulated=simulated,
+                workspace_ok=workspace_ok,
+            )
+            return decision, wire.execution(row) if row is not None else None
+
+        return await self._write(begin)
+
+    async def end_execution(
+        self,
+        execution_id: int,
+        outcome: schemas.ExecutionOutcome,
+        end_reason: str | None,
+        low_level_steps: int,
+        task_success: bool,
+        violations: Sequence[SafetyViolation] = (),
+    ) -> schemas.Execution:
+        """Write the outcome, once."""
+        return await self._write(
+            lambda s: wire.execution(
+                store_executions.end(s, execution_id, outcome, end_reason, low_level_steps, task_success, violations)
+            )
+        )
+
+    # --- metrics, evaluations, checkpoints, journal -----------------------------------------------------------------
+
+    async def add_metrics(self, experiment_id: int, feedback: int, values: Mapping[str, float]) -> schemas.MetricPoint:
+        """A point of the charts at an amount of feedback."""
+        return await self._write(lambda s: wire.metric(store_records.add_metrics(s, experiment_id, feedback, values)))
+
+    async def create_evaluation(
+        self, experiment_id: int, *, rollouts: int, seed: int, policy_version: int
+    ) -> schemas.Evaluation:
+        """An evaluation that has begun."""
+        return await self._write(
+            lambda s: wire.evaluation(store_records.create_evaluation(s, experiment_id, rollouts, seed, policy_version))
+        )
+
+    async def update_evaluation(
+        self, evaluation_id: int, *, done: int, successes: int, low_level_steps: int, ended: bool = False
+    ) -> schemas.Evaluation:
+        """Running totals over the `done` rollouts; `ended` writes the end."""
+        return await self._write(
+            lambda s: wire.evaluation(
+                store_records.update_evaluation(
+                    s, evaluation_id, done=done, successes=successes, low_level_steps=low_level_steps, ended=ended
+                )
+            )
+        )
+
+    async def add_checkpoint(
+        self, experiment_id: int, *, policy_version: int, last_feedback_id: int, sha256: str
+    ) -> schemas.Checkpoint:
+        """A learner that has been saved."""
+        return await self._write(
+            lambda s: wire.checkpoint(
+                store_records.add_checkpoint(s, experiment_id, policy_version, last_feedback_id, sha256)
+            )
+        )
+
+    async def add_event(self, experiment_id: int, kind: str, payload: Mapping[str, Any]) -> schemas.StoredEvent:
+        """A line of the journal that no other write causes, e.g. a worker's death."""
+
+        def add(session: Session) -> schemas.StoredEvent:
+            store_experiments.load(session, experiment_id)
+            row = store_experiments.journal(session, experiment_id, kind, **dict(payload))
+            session.flush()
+            return wire.event(row)
+
+        return await self._write(add)
+
+    # --- retries ----------------------------------------------------------------------------------------------------
+
+    async def remember(self, key: str, route: str, body_digest: str, status: int, body: Any) -> None:
+        """Keep an answer (JSON) for a day."""
+        await self._write(lambda s: store_records.remember(s, key, route, body_digest, status, body))
+
+    # ----------------------------------------------------------------------------------------------------------------
+
+    async def _write(self, run: Callable[[Session], T]) -> T:
+        return await self._database.write(run)
+
+
+def _make_directory(path: Path) -> None:
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ReadOnly(str(error)) from error

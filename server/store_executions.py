@@ -1,0 +1,140 @@
+"""The gate and the executions behind it. Every function runs inside one write transaction."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sqlalchemy import select
+from sqlalchemy.orm import Session
+
+from robot_adapters.base import SafetyViolation
+from server import gate, schemas
+from server.models import ExecutionRow, ExperimentRow, ProposalRow, ViolationRow
+from server.store_errors import Conflict, NotFound
+from server.store_experiments import journal, load, now
+from server.store_proposals import load_proposal
+
+
+def begin(
+    session: Session,
+    proposal_id: int,
+    *,
+    current_observation_id: str,
+    operator_present: bool,
+    simulated: bool,
+    workspace_ok: bool,
+) -> tuple[schemas.GateDecision, ExecutionRow | None]:
+    """Ask the gate with everything re-read, store its answer, and `started` where it is open.
+
+    A proposal is decided once: asked again, it is answered as before and nothing more is started.
+    """
+    proposal = load_proposal(session, proposal_id)
+    if proposal.closed_at is None:
+        raise Conflict(f"proposal {proposal_id} is still open", remedy="wait for its verdict")
+    if proposal.gate_allowed is not None:
+        reason = "it was executed already" if proposal.gate_allowed else str(proposal.gate_reason)
+        return schemas.GateDecision(allowed=False, reason=reason), None
+    moving = select(ExecutionRow.id).where(
+        ExecutionRow.experiment_id == proposal.experiment_id, ExecutionRow.ended_at.is_(None)
+    )
+    if (running := session.scalar(moving)) is not None:
+        raise Conflict(f"execution {running} still moves the robot", remedy="wait until it has ended")
+    experiment = load(session, proposal.experiment_id)
+    decision = _decide(
+        experiment,
+        proposal,
+        simulated=simulated,
+        operator_present=operator_present,
+        workspace_ok=workspace_ok,
+        observation_current=current_observation_id == proposal.observation.uid,
+    )
+    proposal.gate_allowed, proposal.gate_reason = decision.allowed, decision.reason
+    journal(session, experiment.id, "gate", proposal=proposal_id, allowed=decision.allowed, reason=decision.reason)
+    if not decision.allowed:
+        session.flush()
+        return decision, None
+    row = ExecutionRow(experiment_id=experiment.id, proposal=proposal, started_at=now())
+    session.add(row)
+    if proposal.purpose == "training":
+        experiment.executions += 1
+        experiment.updated_at = now()
+    session.flush()
+    journal(session, experiment.id, "execution_started", execution=row.id, proposal=proposal_id, digest=proposal.digest)
+    return decision, row
+
+
+def end(
+    session: Session,
+    execution_id: int,
+    outcome: schemas.ExecutionOutcome,
+    end_reason: str | None,
+    low_level_steps: int,
+    task_success: bool,
+    violations: Sequence[SafetyViolation],
+) -> ExecutionRow:
+    """Write the outcome, once. Steps and violations of training are counted.
+
+    Raises:
+        Conflict: it has an outcome already, e.g. `interrupted`.
+    """
+    row = session.get(ExecutionRow, execution_id)
+    if row is None:
+        raise NotFound("execution", execution_id)
+    if row.outcome is not None:
+        raise Conflict(f"execution {execution_id} has ended: {row.outcome}", remedy="read it; an outcome never changes")
+    at = now()
+    row.outcome, row.end_reason, row.ended_at = outcome.value, end_reason, at
+    row.low_level_steps, row.task_success = low_level_steps, task_success
+    for violation in violations:
+        session.add(
+            ViolationRow(
+                experiment_id=row.experiment_id,
+                execution_id=row.id,
+                kind=violation.kind,
+                detail=violation.detail,
+                at=at,
+            )
+        )
+    if row.proposal.purpose == "training":
+        experiment = load(session, row.experiment_id)
+        experiment.low_level_steps += low_level_steps
+        experiment.violations += len(violations)
+        experiment.updated_at = at
+    session.flush()
+    journal(
+        session,
+        row.experiment_id,
+        "execution_ended",
+        execution=row.id,
+        outcome=outcome.value,
+        end_reason=end_reason,
+        violations=[violation.kind for violation in violations],
+    )
+    return row
+
+
+def _decide(
+    experiment: ExperimentRow,
+    proposal: ProposalRow,
+    *,
+    simulated: bool,
+    operator_present: bool,
+    workspace_ok: bool,
+    observation_current: bool,
+) -> schemas.GateDecision:
+    verdict = schemas.Verdict(proposal.verdict) if proposal.verdict else None
+    lifecycle = schemas.Lifecycle(experiment.lifecycle)
+    if proposal.purpose == "evaluation":
+        return gate.decide_evaluation(
+            verdict, lifecycle, experiment.halted, simulated, workspace_ok, observation_current
+        )
+    return gate.decide(
+        schemas.Mode(experiment.mode),
+        verdict,
+        lifecycle,
+        experiment.halted,
+        simulated,
+        operator_present,
+        workspace_ok,
+        observation_current,
+    )

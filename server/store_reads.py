@@ -1,0 +1,180 @@
+"""The reading half of the store: each method is one snapshot of what is committed, as wire models."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from sqlalchemy import Select, select
+from sqlalchemy.orm import Session
+
+from server import models, schemas, store_experiments, store_pages, store_proposals, store_records
+from server import store_wire as wire
+from server.database import Database
+from server.store_errors import NotFound
+from server.store_values import StoredLabel, StoredResponse
+
+T = TypeVar("T")
+W = TypeVar("W")
+
+
+class Reads:
+    """Every read of the service; `server.store.Store` adds the writes."""
+
+    def __init__(self, database: Database) -> None:
+        self._database = database
+
+    async def experiment(self, experiment_id: int) -> schemas.Experiment:
+        """One experiment."""
+        return await self._one(models.ExperimentRow, experiment_id, "experiment", wire.experiment)
+
+    async def experiments(self, cursor: str | None = None, limit: int = 50) -> schemas.ExperimentPage:
+        """Newest first."""
+        query = select(models.ExperimentRow)
+        items, after = await self._page(query, models.ExperimentRow.id, wire.experiment, cursor, limit)
+        return schemas.ExperimentPage(items=items, next_cursor=after)
+
+    async def proposal(self, proposal_id: int) -> schemas.Proposal:
+        """One proposal."""
+        return await self._one(models.ProposalRow, proposal_id, "proposal", wire.proposal)
+
+    async def proposals(self, experiment_id: int, cursor: str | None = None, limit: int = 50) -> schemas.ProposalPage:
+        """Newest first."""
+        query = select(models.ProposalRow).where(models.ProposalRow.experiment_id == experiment_id)
+        items, after = await self._page(query, models.ProposalRow.id, wire.proposal, cursor, limit, of=experiment_id)
+        return schemas.ProposalPage(items=items, next_cursor=after)
+
+    async def open_proposal_of(self, experiment_id: int) -> schemas.Proposal | None:
+        """The proposal that waits for feedback."""
+        query = select(models.ProposalRow).where(
+            models.ProposalRow.experiment_id == experiment_id, models.ProposalRow.closed_at.is_(None)
+        )
+        return await self._maybe(query, wire.proposal)
+
+    async def undoable(self, experiment_id: int) -> schemas.Feedback | None:
+        """The feedback that `undo_feedback` would take back now."""
+
+        def find(session: Session) -> schemas.Feedback | None:
+            row = store_proposals.newest_counted(session, experiment_id)
+            return wire.feedback(row) if row and store_proposals.why_not_undoable(session, row) is None else None
+
+        return await self._database.read(find)
+
+    async def feedback(self, feedback_id: int) -> schemas.Feedback:
+        """One click."""
+        return await self._one(models.FeedbackRow, feedback_id, "feedback", wire.feedback)
+
+    async def feedback_of_proposal(
+        self, proposal_id: int, cursor: str | None = None, limit: int = 50
+    ) -> schemas.FeedbackPage:
+        """Clicks on a proposal, late and undone ones too, newest first."""
+        await self.proposal(proposal_id)
+        query = select(models.FeedbackRow).where(models.FeedbackRow.proposal_id == proposal_id)
+        items, after = await self._page(query, models.FeedbackRow.id, wire.feedback, cursor, limit)
+        return schemas.FeedbackPage(items=items, next_cursor=after)
+
+    async def labels(self, experiment_id: int, after_id: int = 0) -> list[StoredLabel]:
+        """What the learner trains from, ascending by feedback id."""
+        return await self._database.read(lambda s: store_records.labels(s, experiment_id, after_id))
+
+    async def execution(self, execution_id: int) -> schemas.Execution:
+        """One execution."""
+        return await self._one(models.ExecutionRow, execution_id, "execution", wire.execution)
+
+    async def executions(self, experiment_id: int, cursor: str | None = None, limit: int = 50) -> schemas.ExecutionPage:
+        """Newest first."""
+        query = select(models.ExecutionRow).where(models.ExecutionRow.experiment_id == experiment_id)
+        items, after = await self._page(query, models.ExecutionRow.id, wire.execution, cursor, limit, of=experiment_id)
+        return schemas.ExecutionPage(items=items, next_cursor=after)
+
+    async def running_execution(self, experiment_id: int) -> schemas.Execution | None:
+        """The execution without an outcome."""
+        query = select(models.ExecutionRow).where(
+            models.ExecutionRow.experiment_id == experiment_id, models.ExecutionRow.ended_at.is_(None)
+        )
+        return await self._maybe(query, wire.execution)
+
+    async def metrics(self, experiment_id: int, cursor: str | None = None, limit: int = 50) -> schemas.MetricPage:
+        """Oldest first."""
+        row = models.MetricRow
+        query = select(row).where(row.experiment_id == experiment_id)
+        items, after = await self._page(query, row.id, wire.metric, cursor, limit, of=experiment_id, newest_first=False)
+        return schemas.MetricPage(items=items, next_cursor=after)
+
+    async def evaluation(self, evaluation_id: int) -> schemas.Evaluation:
+        """One evaluation."""
+        return await self._one(models.EvaluationRow, evaluation_id, "evaluation", wire.evaluation)
+
+    async def evaluations(
+        self, experiment_id: int, cursor: str | None = None, limit: int = 50
+    ) -> schemas.EvaluationPage:
+        """Newest first."""
+        row = models.EvaluationRow
+        query = select(row).where(row.experiment_id == experiment_id)
+        items, after = await self._page(query, row.id, wire.evaluation, cursor, limit, of=experiment_id)
+        return schemas.EvaluationPage(items=items, next_cursor=after)
+
+    async def latest_checkpoint(self, experiment_id: int) -> schemas.Checkpoint | None:
+        """The newest one."""
+        items = (await self.checkpoints(experiment_id, limit=1)).items
+        return items[0] if items else None
+
+    async def checkpoints(
+        self, experiment_id: int, cursor: str | None = None, limit: int = 50
+    ) -> schemas.CheckpointPage:
+        """Newest first."""
+        row = models.CheckpointRow
+        query = select(row).where(row.experiment_id == experiment_id)
+        items, after = await self._page(query, row.id, wire.checkpoint, cursor, limit, of=experiment_id)
+        return schemas.CheckpointPage(items=items, next_cursor=after)
+
+    async def trainers(self, cursor: str | None = None, limit: int = 50) -> schemas.TrainerPage:
+        """By id."""
+        row = models.TrainerRow
+        items, after = await self._page(select(row), row.id, wire.trainer, cursor, limit, newest_first=False)
+        return schemas.TrainerPage(items=items, next_cursor=after)
+
+    async def events(self, experiment_id: int, cursor: str | None = None, limit: int = 50) -> schemas.EventPage:
+        """The journal, oldest first."""
+        row = models.EventRow
+        query = select(row).where(row.experiment_id == experiment_id)
+        items, after = await self._page(query, row.id, wire.event, cursor, limit, of=experiment_id, newest_first=False)
+        return schemas.EventPage(items=items, next_cursor=after)
+
+    async def idempotent(self, key: str, route: str, body_digest: str) -> StoredResponse | None:
+        """The answer that this key got before on this route; Conflict where the body was another."""
+        return await self._database.read(lambda s: store_records.idempotent(s, key, route, body_digest))
+
+    async def _one(self, kind: type[T], row_id: int, what: str, convert: Callable[[T], W]) -> W:
+        def find(session: Session) -> W:
+            row = session.get(kind, row_id)
+            if row is None:
+                raise NotFound(what, row_id)
+            return convert(row)
+
+        return await self._database.read(find)
+
+    async def _maybe(self, query: Select[tuple[T]], convert: Callable[[T], W]) -> W | None:
+        def find(session: Session) -> W | None:
+            row = session.scalars(query).one_or_none()
+            return convert(row) if row is not None else None
+
+        return await self._database.read(find)
+
+    async def _page(
+        self,
+        query: Select[tuple[T]],
+        key: Any,
+        convert: Callable[[T], W],
+        cursor: str | None,
+        limit: int,
+        *,
+        of: int | None = None,
+        newest_first: bool = True,
+    ) -> tuple[list[W], str | None]:
+        def find(session: Session) -> tuple[list[W], str | None]:
+            if of is not None:
+                store_experiments.load(session, of)
+            return store_pages.page(session, query, key, convert, cursor, limit, newest_first=newest_first)
+
+        return await self._database.read(find)

@@ -1,0 +1,150 @@
+"""Metrics, evaluations, checkpoints, labels and idempotency: what is written beside the loop of proposals."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from datetime import timedelta
+from typing import Any
+
+from sqlalchemy import delete, select
+from sqlalchemy.orm import Session
+
+from server.models import (
+    CheckpointRow,
+    EvaluationRow,
+    FeedbackRow,
+    IdempotencyRow,
+    MetricRow,
+    ObservationRow,
+    ProposalRow,
+)
+from server.store_errors import Conflict, NotFound
+from server.store_experiments import journal, load, now
+from server.store_values import StoredLabel, StoredResponse
+
+REMEMBERED = timedelta(hours=24)
+"""How long a retried write gets its first answer again."""
+
+
+def add_metrics(session: Session, experiment_id: int, feedback: int, values: Mapping[str, float]) -> MetricRow:
+    """A point of the charts. A value that isn't finite can't be drawn, nor written as JSON, and is left out."""
+    load(session, experiment_id)
+    finite = {name: float(value) for name, value in values.items() if math.isfinite(value)}
+    row = MetricRow(experiment_id=experiment_id, feedback=feedback, at=now(), data=finite)
+    session.add(row)
+    session.flush()
+    return row
+
+
+def create_evaluation(
+    session: Session, experiment_id: int, rollouts: int, seed: int, policy_version: int
+) -> EvaluationRow:
+    """An evaluation that has begun, at the amount of feedback stored now."""
+    experiment = load(session, experiment_id)
+    row = EvaluationRow(
+        experiment_id=experiment_id,
+        feedback=experiment.feedback,
+        policy_version=policy_version,
+        rollouts=rollouts,
+        done=0,
+        successes=0,
+        low_level_steps=0,
+        seed=seed,
+        started_at=now(),
+    )
+    session.add(row)
+    session.flush()
+    journal(session, experiment_id, "evaluation_started", evaluation=row.id, rollouts=rollouts, seed=seed)
+    return row
+
+
+def update_evaluation(
+    session: Session, evaluation_id: int, *, done: int, successes: int, low_level_steps: int, ended: bool
+) -> EvaluationRow:
+    """Running totals. `ended` before all rollouts are done cuts `rollouts` down to those that happened.
+
+    Raises:
+        Conflict: it has ended.
+    """
+    row = session.get(EvaluationRow, evaluation_id)
+    if row is None:
+        raise NotFound("evaluation", evaluation_id)
+    if row.ended_at is not None:
+        raise Conflict(f"evaluation {evaluation_id} has ended", remedy="start another one")
+    row.done, row.successes, row.low_level_steps = done, successes, low_level_steps
+    if ended:
+        row.ended_at, row.rollouts = now(), done
+        journal(session, row.experiment_id, "evaluation_ended", evaluation=row.id, successes=successes, rollouts=done)
+    session.flush()
+    return row
+
+
+def add_checkpoint(
+    session: Session, experiment_id: int, policy_version: int, last_feedback_id: int, sha256: str
+) -> CheckpointRow:
+    """A learner that lies on the disk by now."""
+    load(session, experiment_id)
+    row = CheckpointRow(
+        experiment_id=experiment_id,
+        policy_version=policy_version,
+        last_feedback_id=last_feedback_id,
+        sha256=sha256,
+        created_at=now(),
+    )
+    session.add(row)
+    session.flush()
+    return row
+
+
+def labels(session: Session, experiment_id: int, after_id: int) -> list[StoredLabel]:
+    """What the learner trains from: counted feedback of training proposals that got a verdict, by id."""
+    query = (
+        select(FeedbackRow.id, ObservationRow.state, ProposalRow.skill, ProposalRow.parameters, FeedbackRow.value)
+        .join(ProposalRow, ProposalRow.id == FeedbackRow.proposal_id)
+        .join(ObservationRow, ObservationRow.id == ProposalRow.observation_id)
+        .where(
+            FeedbackRow.experiment_id == experiment_id,
+            FeedbackRow.id > after_id,
+            FeedbackRow.status == "stored",
+            FeedbackRow.undone_at.is_(None),
+            ProposalRow.purpose == "training",
+            ProposalRow.verdict.is_not(None),  # a time-out trains nothing, whoever voted before it
+        )
+        .order_by(FeedbackRow.id)
+    )
+    return [
+        StoredLabel(feedback_id, tuple(state), skill, tuple(parameters), value)
+        for feedback_id, state, skill, parameters, value in session.execute(query)
+    ]
+
+
+def idempotent(session: Session, key: str, route: str, body_digest: str) -> StoredResponse | None:
+    """The answer given before to this key on this route, if any.
+
+    Raises:
+        Conflict: the key was used with another body.
+    """
+    row = session.get(IdempotencyRow, (key, route))
+    if row is None or row.created_at < now() - REMEMBERED:
+        return None
+    if row.body_digest != body_digest:
+        raise Conflict("this Idempotency-Key was used with another body", remedy="make a new key for every request")
+    return StoredResponse(row.status, json.loads(row.body))
+
+
+def remember(session: Session, key: str, route: str, body_digest: str, status: int, body: Any) -> None:
+    """Keep an answer for a retry; answers older than a day go. The first answer to a key stays."""
+    session.execute(delete(IdempotencyRow).where(IdempotencyRow.created_at < now() - REMEMBERED))
+    if idempotent(session, key, route, body_digest) is None:
+        session.add(
+            IdempotencyRow(
+                key=key,
+                route=route,
+                body_digest=body_digest,
+                status=status,
+                body=json.dumps(body),
+                created_at=now(),
+            )
+        )

@@ -1,0 +1,83 @@
+"""What goes into the store and comes out beside the wire models."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from robot_adapters.base import SkillCall
+from server.schemas import Feedback, Overlay, Proposal
+
+Purpose = Literal["training", "evaluation"]
+EpisodeOutcome = Literal["success", "horizon", "violation", "reset", "interrupted"]
+
+
+@dataclass(frozen=True)
+class NewView:
+    """One camera's still image (by its hash) with the overlay that was computed on it."""
+
+    camera: str
+    width: int
+    height: int
+    image: str
+    overlay: Overlay
+
+
+@dataclass(frozen=True)
+class NewProposal:
+    """A proposal to open. `state` is the task's vector; parameters are metres and radians, robot base frame.
+
+    taken_at: seconds since the epoch. electorate: the trainers whose votes majority and unanimous ask for.
+    """
+
+    experiment_id: int
+    observation_id: str
+    state: Sequence[float]
+    taken_at: float
+    call: SkillCall
+    parameter_names: Sequence[str]
+    predicted_feedback: float
+    skill_probabilities: Mapping[str, float]
+    policy_version: int
+    subgoal: str | None
+    views: Sequence[NewView]
+    purpose: Purpose = "training"
+    electorate: Sequence[str] = ("local",)
+
+
+@dataclass(frozen=True)
+class Submission:
+    """What became of a click. `closed` is the proposal if this very click closed it."""
+
+    feedback: Feedback
+    duplicate: bool
+    closed: Proposal | None
+
+
+@dataclass(frozen=True)
+class Undone:
+    """A click taken back: its proposal is open again, and the one opened meanwhile is withdrawn."""
+
+    feedback: Feedback
+    reopened: Proposal
+    withdrawn: Proposal | None
+
+
+@dataclass(frozen=True)
+class StoredLabel:
+    """A counted feedback as the learner needs it; one per trainer of a proposal that got a verdict."""
+
+    feedback_id: int
+    state: tuple[float, ...]
+    skill: str
+    parameters: tuple[float, ...]
+    value: int
+
+
+@dataclass(frozen=True)
+class StoredResponse:
+    """The answer that a write was given the first time."""
+
+    status: int
+    body: dict[str, Any] | list[Any] | None

@@ -1,0 +1,147 @@
+"""Rows as the wire models of `server.schemas`."""
+
+from __future__ import annotations
+
+from server import models, schemas
+
+
+def experiment(row: models.ExperimentRow) -> schemas.Experiment:
+    """The live phase isn't stored: the hub fills it in."""
+    counters = {name: getattr(row, name) for name in schemas.Counters.model_fields}
+    return schemas.Experiment(
+        id=row.id,
+        name=row.name,
+        task=row.task,
+        adapter=row.adapter,
+        algorithm=row.algorithm,
+        preset=row.preset,
+        settings=row.settings,
+        adapter_settings=row.adapter_settings,
+        seed=row.seed,
+        mode=schemas.Mode(row.mode),
+        aggregation=schemas.Aggregation(row.aggregation),
+        feedback_timeout=row.feedback_timeout,
+        teacher=row.teacher,
+        lockstep=row.lockstep,
+        lifecycle=schemas.Lifecycle(row.lifecycle),
+        phase=schemas.Phase.IDLE,
+        halted=row.halted,
+        failure=row.failure,
+        counters=schemas.Counters(**counters),
+        created_at=row.created_at,
+        updated_at=row.updated_at,
+    )
+
+
+def proposal(row: models.ProposalRow) -> schemas.Proposal:
+    """With the address of each picture."""
+    gate = None
+    if row.gate_allowed is not None and row.gate_reason is not None:
+        gate = schemas.GateDecision(allowed=row.gate_allowed, reason=row.gate_reason)
+    return schemas.Proposal(
+        id=row.id,
+        experiment_id=row.experiment_id,
+        episode=row.episode.number,
+        number=row.number,
+        observation_id=row.observation.uid,
+        state=row.observation.state,
+        skill=row.skill,
+        parameters=_named(row),
+        digest=row.digest,
+        predicted_feedback=row.predicted_feedback,
+        skill_probabilities=row.skill_probabilities,
+        policy_version=row.policy_version,
+        subgoal=row.subgoal,
+        views=[
+            schemas.View.model_validate({**view, "url": f"/api/v1/proposals/{row.id}/images/{view['camera']}"})
+            for view in row.views
+        ],
+        opened_at=row.opened_at,
+        closed_at=row.closed_at,
+        close_reason=schemas.CloseReason(row.close_reason) if row.close_reason else None,
+        verdict=schemas.Verdict(row.verdict) if row.verdict else None,
+        gate=gate,
+        purpose="evaluation" if row.purpose == "evaluation" else "training",
+    )
+
+
+def feedback(row: models.FeedbackRow) -> schemas.Feedback:
+    """With the trainer's name."""
+    return schemas.Feedback(
+        id=row.id,
+        click_id=row.click_id,
+        proposal_id=row.proposal_id,
+        experiment_id=row.experiment_id,
+        trainer=row.trainer.name,
+        value=row.value,
+        status=schemas.FeedbackStatus(row.status),
+        received_at=row.received_at,
+        undone_at=row.undone_at,
+    )
+
+
+def execution(row: models.ExecutionRow) -> schemas.Execution:
+    """With the call of its proposal: an execution has no parameters of its own."""
+    return schemas.Execution(
+        id=row.id,
+        experiment_id=row.experiment_id,
+        proposal_id=row.proposal_id,
+        skill=row.proposal.skill,
+        parameters=_named(row.proposal),
+        started_at=row.started_at,
+        ended_at=row.ended_at,
+        outcome=schemas.ExecutionOutcome(row.outcome) if row.outcome else None,
+        end_reason=row.end_reason,
+        low_level_steps=row.low_level_steps,
+        task_success=row.task_success,
+    )
+
+
+def evaluation(row: models.EvaluationRow) -> schemas.Evaluation:
+    """The success rate is over the rollouts that are done."""
+    return schemas.Evaluation(
+        id=row.id,
+        experiment_id=row.experiment_id,
+        feedback=row.feedback,
+        policy_version=row.policy_version,
+        rollouts=row.rollouts,
+        successes=row.successes,
+        success_rate=row.successes / row.done if row.done else 0.0,
+        low_level_steps=row.low_level_steps,
+        seed=row.seed,
+        started_at=row.started_at,
+        ended_at=row.ended_at,
+    )
+
+
+def metric(row: models.MetricRow) -> schemas.MetricPoint:
+    """One point of a chart."""
+    return schemas.MetricPoint(feedback=row.feedback, at=row.at, values=row.data)
+
+
+def checkpoint(row: models.CheckpointRow) -> schemas.Checkpoint:
+    """A saved learner."""
+    return schemas.Checkpoint(
+        id=row.id,
+        experiment_id=row.experiment_id,
+        policy_version=row.policy_version,
+        last_feedback_id=row.last_feedback_id,
+        sha256=row.sha256,
+        created_at=row.created_at,
+    )
+
+
+def trainer(row: models.TrainerRow) -> schemas.Trainer:
+    """Someone who judges."""
+    return schemas.Trainer.model_validate(
+        {"id": row.id, "name": row.name, "kind": row.kind, "created_at": row.created_at}
+    )
+
+
+def event(row: models.EventRow) -> schemas.StoredEvent:
+    """A line of the journal."""
+    return schemas.StoredEvent(id=row.id, kind=row.kind, payload=row.payload, at=row.at)
+
+
+def _named(row: models.ProposalRow) -> dict[str, float]:
+    return dict(zip(row.parameter_names, row.parameters, strict=True))
