@@ -73,9 +73,7 @@ def overlay(
     )
 
 
-def look_at(
-    eye: Array, target: Array, *, vertical_field_of_view: float, width: int, height: int
-) -> CameraCalibration:
+def look_at(eye: Array, target: Array, *, vertical_field_of_view: float, width: int, height: int) -> CameraCalibration:
     """An ideal camera at `eye` (3,) that looks at `target` (3,), both m in the base frame, with z up in its image.
 
     `vertical_field_of_view` is in radians. For adapters without a calibrated or simulated camera.

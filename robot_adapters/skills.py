@@ -15,6 +15,7 @@ from robot_adapters.base import Array, EndReason, SkillCall, SkillSpec, StepHook
 from robot_adapters.projection import closing_direction, push_vector
 
 STEP_CAP = 0.10  # m from the present pose to a set-point; measured: 0.6 m/s at most under kp 150
+OFF_LINE = 0.02  # m aside of the line at which the arm waits until it is back on it: a fast descent drags it aside
 YAW_CAP = 0.5  # rad, likewise
 TRANSIT_TOLERANCE = 0.03  # m; a waypoint that is only passed. Measured
 FINE_TOLERANCE = 0.0045  # m; a waypoint where the fingers act. Measured
@@ -51,7 +52,7 @@ class Arm(Protocol):
         """Hold the set-point (3,) m, base frame, for one control period, then return."""
 
 
-class _Ended(Exception):  # noqa: N818  it carries a reason, it isn't an error
+class _Ended(Exception):
     """Leaves the nested segments of a skill at once."""
 
     def __init__(self, reason: EndReason) -> None:
@@ -215,7 +216,9 @@ class _Motion:
                     return
                 raise _Ended(EndReason.STALLED)
             # on the line and not from here towards the target, so that whatever drives the arm aside is corrected
-            ahead = min(length, max(0.0, float((here - start) @ along)) + STEP_CAP)
+            done = max(0.0, float((here - start) @ along))
+            aside = _norm(here - start - done * along)
+            ahead = min(length, done + STEP_CAP * max(0.0, 1.0 - aside / OFF_LINE))
             self._set_point(start + ahead * along, yaw + float(np.clip(turn, -YAW_CAP, YAW_CAP)))
         raise _Ended(EndReason.TIMEOUT)
 

@@ -1,4 +1,4 @@
-"""The robosuite adapter: a simulated Panda at a table. Importing this loads no simulator; `FACTORY` does when called."""
+"""The robosuite adapter: a simulated Panda at a table. Importing this loads no simulator; calling `FACTORY` does."""
 
 from __future__ import annotations
 

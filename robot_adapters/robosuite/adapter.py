@@ -116,14 +116,13 @@ class RobosuiteAdapter:
 
     def _yaw(self, call: SkillCall, spec: SkillSpec) -> float:
         """The gripper's angle, rad, for a call that doesn't say: clear of neighbours to pick, else as it is."""
-        present = self.simulator.pose()[1]
         if call.skill != "pick":
-            return present
+            return self.simulator.yaw
         values = call.named(spec)
         target = np.array([values["x"], values["y"], values["z"]])
         objects = list(self.simulator.scene().objects.values())
         if not objects:
-            return present
+            return self.simulator.yaw
         # what lies nearest the target is what is picked, the others are in the way
         nearest = min(range(len(objects)), key=lambda i: float(np.linalg.norm(objects[i] - target)))
         return clear_yaw(target, objects[:nearest] + objects[nearest + 1 :])

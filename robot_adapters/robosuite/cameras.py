@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import atexit
+import importlib
 import io
 import math
 import os
 import time
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -14,7 +17,7 @@ from PIL import Image
 
 from robot_adapters.base import CameraCalibration, CameraFrame, Unavailable
 from robot_adapters.projection import intrinsics
-from robot_adapters.robosuite.graphics import remedy
+from robot_adapters.robosuite.graphics import BACKENDS, remedy
 from robot_adapters.robosuite.scene import BASE, CAMERAS
 
 WIDTH, HEIGHT = 640, 480
@@ -29,7 +32,7 @@ VISUAL_GEOMS = 1  # robosuite's group of what is for looks; 0 is for collisions
 
 
 class Cameras:
-    """The OpenGL context with the scene in it. Create, use and close it on one thread: OpenGL contexts belong to one."""
+    """The OpenGL context with the scene in it. Create, use and close it on one thread, which owns it."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         """Make a context and draw once.
@@ -43,7 +46,7 @@ class Cameras:
         model.vis.quality.shadowsize = 0
         backend = os.environ.get("MUJOCO_GL", "")
         try:
-            self._gl = mujoco.GLContext(WIDTH, HEIGHT)
+            self._gl = gl_context(backend)
             self._gl.make_current()
             self._context = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100)
         except Exception as error:  # whatever a driver raises, the reader needs the same remedy
@@ -60,10 +63,13 @@ class Cameras:
         self._camera = mujoco.MjvCamera()
         self._camera.type = mujoco.mjtCamera.mjCAMERA_FIXED
         self._pixels = np.empty((HEIGHT, WIDTH, 3), dtype=np.uint8)
+        # a context that outlives MuJoCo's own clean-up at exit complains on the console
+        atexit.register(self.close)
         refuse_black(self.render(next(iter(CAMERAS))), backend)
 
     def render(self, camera: str, *, segmentation: bool = False) -> NDArray[np.uint8]:
         """(480, 640, 3) RGB picture now, top row first; with `segmentation`, colours that `geoms` understands."""
+        self._gl.make_current()  # another adapter of this thread may have drawn since
         self._camera.fixedcamid = self._model.camera(camera).id
         mujoco.mjv_updateScene(
             self._model, self._data, self._option, None, self._camera, mujoco.mjtCatBit.mjCAT_ALL, self._scene
@@ -83,7 +89,8 @@ class Cameras:
         for drawn in self._scene.geoms[: self._scene.ngeom]:
             if drawn.segid >= 0 and drawn.objtype == mujoco.mjtObj.mjOBJ_GEOM:
                 known[drawn.segid] = drawn.objid
-        return known[np.where((index >= 0) & (index < self._scene.ngeom), index, -1)]
+        at: NDArray[np.int64] = known[np.where((index >= 0) & (index < self._scene.ngeom), index, -1)]
+        return at
 
     def frame(self, camera: str, quality: int) -> CameraFrame:
         """A JPEG now."""
@@ -104,8 +111,15 @@ class Cameras:
 
     def close(self) -> None:
         """Free the context, on the thread that made it."""
+        atexit.unregister(self.close)
         self._context.free()
         self._gl.free()
+
+
+def gl_context(backend: str) -> Any:
+    """MuJoCo's off-screen context of exactly this backend, even where MuJoCo was imported before it was chosen."""
+    module = importlib.import_module(f"mujoco.{backend}") if backend in BACKENDS else mujoco
+    return module.GLContext(WIDTH, HEIGHT)
 
 
 def refuse_black(picture: NDArray[np.uint8], backend: str) -> None:

@@ -27,9 +27,11 @@ class Simulator:
 
     def __init__(self, objects: tuple[ObjectSpec, ...]) -> None:
         self._env = Tabletop(objects)
-        self.model: mujoco.MjModel = self._env.sim.model._model  # noqa: SLF001  robosuite wraps what cameras need
-        self.data: mujoco.MjData = self._env.sim.data._data  # noqa: SLF001
+        self.model: mujoco.MjModel = self._env.sim.model._model
+        self.data: mujoco.MjData = self._env.sim.data._data
         self._closed = False
+        self.yaw = 0.0
+        """The angle last commanded, rad: the one to keep, where the measured one would drift from skill to skill."""
         self._home = np.array(self._robot.init_qpos)
         self._site = self.model.site(GRIP_SITE).id
         self._fingers = [self.model.joint(name).qposadr[0] for name in FINGERS]
@@ -75,8 +77,8 @@ class Simulator:
 
     def step(self, target: Array, yaw: float, gripper_closed: bool) -> None:
         """Hold the set-point for one control period."""
-        self._closed = gripper_closed
-        # robosuite ramps the command over ten steps; at once instead (gripper rate 1), the fingers' own damping ramps it
+        self._closed, self.yaw = gripper_closed, yaw
+        # at once (gripper rate 1), where robosuite ramps the command over ten steps: the fingers are damped enough
         self._robot.gripper["right"].current_action = np.array([1.0, -1.0]) * (-1.0 if gripper_closed else 1.0)
         # pointing down with the site's x axis at an angle is a half turn about the axis at half that angle
         half = (yaw + math.pi / 2) / 2
@@ -105,6 +107,6 @@ class Simulator:
             return None
         gripper = self._robot.gripper["right"]
         for name, block in self._env.blocks.items():
-            if self._env._check_grasp(gripper, block):  # noqa: SLF001  robosuite's way to ask
+            if self._env._check_grasp(gripper, block):
                 return name
         return None
