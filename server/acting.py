@@ -1,0 +1,121 @@
+"""One proposal's two ends: drawn from an observation, and, once approved, run through the gate.
+
+Training and evaluation use the same two functions, so that there is one way to the robot.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+
+import numpy as np
+
+from robot_adapters import registry
+from robot_adapters.base import InvalidCall, SafetyViolation, SkillCall, check_call
+from server.crew import Crew, Done, Seen
+from server.schemas import (
+    Execution,
+    ExecutionEnded,
+    ExecutionOutcome,
+    ExecutionStarted,
+    Experiment,
+    Proposal,
+    ProposalClosed,
+    StreamEvent,
+)
+from server.store import Store
+from server.store_values import NewProposal, NewView, Purpose
+from server.worker import CommandFailed, WorkerDied
+
+log = logging.getLogger(__name__)
+
+Publish = Callable[[StreamEvent], None]
+
+
+class Acting:
+    """Draws proposals and moves the robot by approved ones, for one experiment."""
+
+    def __init__(self, experiment: Experiment, store: Store, crew: Crew, publish: Publish) -> None:
+        self._experiment_id = experiment.id
+        self._store = store
+        self._crew = crew
+        self._publish = publish
+        self.task = registry.task(experiment.task)
+        self.simulated = registry.adapter(experiment.adapter).simulated
+
+    async def draw(self, seen: Seen, *, purpose: Purpose = "training", deterministic: bool = False) -> NewProposal:
+        """Sample a ~ pi_phi(.|s), x ~ pi_psi(.|s, a), and draw the call on the images of the observation."""
+        idea = await self._crew.propose(seen.state, deterministic=deterministic)
+        overlays = await self._crew.overlay(idea.call)
+        spec = check_call(idea.call, self.task.skills)
+        return NewProposal(
+            experiment_id=self._experiment_id,
+            observation_id=seen.id,
+            state=seen.state,
+            taken_at=seen.taken_at,
+            call=idea.call,
+            parameter_names=tuple(p.name for p in spec.parameters),
+            predicted_feedback=idea.predicted_feedback,
+            skill_probabilities=idea.skill_probabilities,
+            policy_version=idea.policy_version,
+            subgoal=self._subgoal(seen),
+            views=[NewView(p.camera, p.width, p.height, p.image, overlays[p.camera]) for p in seen.pictures],
+            purpose=purpose,
+        )
+
+    async def decide(self, proposal: Proposal, seen: Seen) -> Execution | None:
+        """Ask the gate whether the judged proposal may run now; if so, it is stored as started when this returns."""
+        decision, execution = await self._store.begin_execution(
+            proposal.id,
+            current_observation_id=seen.id,
+            operator_present=False,
+            simulated=self.simulated,
+            workspace_ok=self._inside(self.call_of(proposal)),
+        )
+        self._publish(ProposalClosed(proposal=proposal.model_copy(update={"gate": decision})))
+        return execution
+
+    async def move(self, proposal: Proposal, execution: Execution) -> Done:
+        """Run exactly the approved call and store what came of it.
+
+        Raises:
+            WorkerDied: the robot worker went away in the middle; the execution is stored as interrupted.
+        """
+        self._publish(ExecutionStarted(execution=execution))
+        try:
+            done = await self._crew.execute(proposal.id, execution.id, proposal.digest, self.call_of(proposal))
+        except CommandFailed as refusal:
+            log.warning("execution %d was refused by the robot worker: %s", execution.id, refusal)
+            done = Done.nothing(str(refusal), stopped=refusal.kind == "Latched")
+        except WorkerDied:
+            await self._end(execution.id, ExecutionOutcome.INTERRUPTED, None)
+            raise
+        outcome = ExecutionOutcome.SUCCEEDED if done.arrived else ExecutionOutcome.FAILED
+        await self._end(execution.id, ExecutionOutcome.STOPPED if done.stopped else outcome, done)
+        return done
+
+    def call_of(self, proposal: Proposal) -> SkillCall:
+        """The proposed call; its digest is the proposal's, or the robot worker refuses it."""
+        return SkillCall(proposal.skill, tuple(proposal.parameters.values()))
+
+    async def _end(self, execution_id: int, outcome: ExecutionOutcome, done: Done | None) -> None:
+        violations = [] if done is None else [SafetyViolation(kind, detail) for kind, detail in done.violations]
+        execution = await self._store.end_execution(
+            execution_id,
+            outcome,
+            end_reason="worker_died" if done is None else done.end,
+            low_level_steps=0 if done is None else done.low_level_steps,
+            task_success=done is not None and done.task_success,
+            violations=violations,
+        )
+        self._publish(ExecutionEnded(execution=execution, violations=[f"{v.kind}: {v.detail}" for v in violations]))
+
+    def _inside(self, call: SkillCall) -> bool:
+        try:
+            check_call(call, self.task.skills)
+        except InvalidCall:
+            return False
+        return True
+
+    def _subgoal(self, seen: Seen) -> str:
+        return self.task.subgoals[self.task.subgoal(np.array(seen.state))].description

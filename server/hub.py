@@ -1,0 +1,235 @@
+"""The registry of runners: everything that routes, the stream and the command line may ask of experiments."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections import defaultdict
+from datetime import UTC, datetime
+from typing import Literal
+
+from server.publisher import Publisher
+from server.runner import Runner
+from server.schemas import (
+    Evaluation,
+    EvaluationChanged,
+    EvaluationCreate,
+    Experiment,
+    ExperimentChanged,
+    ExperimentPage,
+    ExperimentUpdate,
+    Feedback,
+    FeedbackCreate,
+    Lifecycle,
+    Snapshot,
+)
+from server.settings import Settings
+from server.store import Conflict, NotFound, Store
+
+log = logging.getLogger(__name__)
+
+Act = Literal["start", "pause", "resume", "finish", "reset", "halt", "rearm", "archive"]
+
+CLOSE_GRACE = 1.0
+"""Seconds that a runner has for its last step when the service ends."""
+
+
+class Hub:
+    """Runs experiments. One for a store; used from one event loop."""
+
+    def __init__(self, store: Store, settings: Settings, publisher: Publisher) -> None:
+        self.store = store
+        self._settings = settings
+        self._publisher = publisher
+        self._runners: dict[int, Runner] = {}
+        # verbs of one experiment come one after another; a halt waits for none of them
+        self._verbs: defaultdict[int, asyncio.Lock] = defaultdict(asyncio.Lock)
+
+    async def start(self) -> None:
+        """Clear up what an earlier process left half-done. Nothing moves until someone resumes."""
+        await self.store.recover()
+
+    async def close(self) -> None:
+        """Pause what runs and end all workers, within about two seconds."""
+        await asyncio.gather(*(self._close(experiment_id, runner) for experiment_id, runner in self._runners.items()))
+        self._runners.clear()
+
+    # --- looking ------------------------------------------------------------------------------------------------
+
+    async def view(self, experiment_id: int) -> Experiment:
+        """The experiment with its live phase."""
+        return self._live(await self.store.experiment(experiment_id))
+
+    async def views(self, cursor: str | None = None, limit: int = 50) -> ExperimentPage:
+        """Experiments, newest first, with their live phases."""
+        page = await self.store.experiments(cursor=cursor, limit=limit)
+        return page.model_copy(update={"items": [self._live(item) for item in page.items]})
+
+    async def snapshot(self, experiment_id: int, boot_id: str) -> Snapshot:
+        """Everything a page needs to draw itself."""
+        experiment, proposal, execution, undoable = await asyncio.gather(
+            self.view(experiment_id),
+            self.store.open_proposal_of(experiment_id),
+            self.store.running_execution(experiment_id),
+            self.store.undoable(experiment_id),
+        )
+        return Snapshot(
+            experiment=experiment,
+            proposal=proposal,
+            execution=execution,
+            undoable=undoable,
+            server_time=datetime.now(UTC),
+            boot_id=boot_id,
+        )
+
+    async def idle(self, experiment_id: int) -> None:
+        """Wait until neither the experiment's loop nor an evaluation of it goes on."""
+        if runner := self._runners.get(experiment_id):
+            await runner.idle()
+
+    def worker_pids(self, experiment_id: int) -> dict[str, int]:
+        """Process ids of the experiment's living workers, by role."""
+        runner = self._runners.get(experiment_id)
+        return {} if runner is None else runner.worker_pids
+
+    # --- verbs --------------------------------------------------------------------------------------------------
+
+    async def act(self, experiment_id: int, verb: Act, *, until: int | None = None) -> Experiment:
+        """Do what a person asks of an experiment. `until`: pause by itself once so much feedback is stored.
+
+        Raises:
+            NotFound: no such experiment. Conflict: the verb is illegal now; nothing has changed.
+        """
+        if verb == "halt":
+            return await self._halt(experiment_id)
+        async with self._verbs[experiment_id]:
+            runner = await self._runner(experiment_id)
+            if runner.evaluating and verb != "rearm":
+                raise Conflict(
+                    f"can't {verb} an experiment while it is evaluated", remedy="wait for its end, or halt it"
+                )
+            stops = runner.stops
+            # together with the loop's own steps, so that none of them meets a state that it didn't expect
+            async with runner.turn:
+                experiment = await self._store_verb(experiment_id, verb)
+                if verb in ("pause", "finish", "archive"):
+                    runner.leave()
+            await self._follow(runner, verb, until, stops)
+            runner.changed(experiment)
+            return runner.experiment
+
+    async def evaluate(self, experiment_id: int, body: EvaluationCreate) -> Evaluation:
+        """Start rollouts of the deterministic policy; they go on in the background.
+
+        Raises:
+            NotFound: no such experiment. Conflict: it runs, is halted, is being evaluated, or moves a real robot.
+        """
+        async with self._verbs[experiment_id]:
+            runner = await self._runner(experiment_id)
+            if runner.evaluating:
+                raise Conflict("an evaluation of this experiment goes on", remedy="wait for its end, or halt it")
+            if not runner.simulated:
+                raise Conflict("evaluations move simulated robots only", remedy="judge its proposals yourself")
+            await self.store.transition(experiment_id, "evaluate")
+            evaluation = await self.store.create_evaluation(
+                experiment_id,
+                rollouts=body.rollouts,
+                seed=body.seed,
+                policy_version=await runner.policy_version(),
+            )
+            self._publisher.publish(experiment_id, EvaluationChanged(evaluation=evaluation, done=0))
+            runner.evaluate(evaluation)
+            return evaluation
+
+    async def update(self, experiment_id: int, body: ExperimentUpdate) -> Experiment:
+        """Change what may change live."""
+        experiment = await self.store.update_experiment(experiment_id, body)
+        if runner := self._runners.get(experiment_id):
+            runner.changed(experiment)
+        else:
+            self._publisher.publish(experiment_id, ExperimentChanged(experiment=experiment))
+        return self._live(experiment)
+
+    # --- clicks -------------------------------------------------------------------------------------------------
+
+    async def feedback(
+        self, proposal_id: int, body: FeedbackCreate, experiment_id: int | None = None
+    ) -> tuple[Feedback, bool]:
+        """Store a click; it is committed when this returns. The second value: the same click was stored before.
+
+        Raises:
+            NotFound: no such proposal, or not one of `experiment_id`. Conflict: the click id was used for another
+                click, or the proposal isn't for people to judge.
+        """
+        owner = next((key for key, r in self._runners.items() if r.open_proposal_id == proposal_id), None)
+        if owner is None:
+            owner = (await self.store.proposal(proposal_id)).experiment_id
+        if experiment_id is not None and owner != experiment_id:
+            raise NotFound("proposal of this experiment", proposal_id)
+        runner = await self._runner(owner)
+        submission = await runner.feedback(proposal_id, body)
+        return submission.feedback, submission.duplicate
+
+    async def undo(self, feedback_id: int) -> Feedback:
+        """Take the newest click back, while nothing has moved since.
+
+        Raises:
+            NotFound: no such feedback. Conflict: it is too late.
+        """
+        feedback = await self.store.feedback(feedback_id)
+        runner = await self._runner(feedback.experiment_id)
+        return await runner.undo(feedback_id)
+
+    # --- inside -------------------------------------------------------------------------------------------------
+
+    async def _halt(self, experiment_id: int) -> Experiment:
+        """Emergency stop: the robot first, then the database, then everyone is told."""
+        runner = self._runners.get(experiment_id)
+        if runner is not None:
+            runner.stop()
+        experiment = await self.store.halt(experiment_id)
+        if runner is None:
+            runner = await self._runner(experiment_id)
+            runner.stop()
+        runner.changed(experiment)
+        if experiment.lifecycle is Lifecycle.RUNNING:
+            experiment = await self.store.transition(experiment_id, "pause")
+            runner.changed(experiment)
+        await runner.withdraw()
+        return runner.experiment
+
+    async def _store_verb(self, experiment_id: int, verb: Act) -> Experiment:
+        if verb == "rearm":
+            return await self.store.rearm(experiment_id)
+        return await self.store.transition(experiment_id, verb)
+
+    async def _follow(self, runner: Runner, verb: Act, until: int | None, stops: int) -> None:
+        """What a stored verb means for the runner. A re-arm lifts the stops that were there when it was asked for."""
+        if verb in ("start", "resume"):
+            runner.go(until=until)
+        elif verb == "rearm":
+            await runner.rearm(stops)
+        elif verb == "reset":
+            await runner.reset()
+        elif verb in ("pause", "finish"):
+            await runner.withdraw()
+        if verb in ("finish", "archive"):
+            runner.dismiss()
+
+    async def _close(self, experiment_id: int, runner: Runner) -> None:
+        async with self._verbs[experiment_id]:
+            runner.leave()
+            if (await self.store.experiment(experiment_id)).lifecycle is Lifecycle.RUNNING:
+                runner.changed(await self.store.transition(experiment_id, "pause"))
+            await runner.close(grace=CLOSE_GRACE)
+
+    async def _runner(self, experiment_id: int) -> Runner:
+        if experiment_id not in self._runners:
+            experiment = await self.store.experiment(experiment_id)
+            # another caller may have been quicker
+            self._runners.setdefault(experiment_id, Runner(experiment, self.store, self._settings, self._publisher))
+        return self._runners[experiment_id]
+
+    def _live(self, experiment: Experiment) -> Experiment:
+        runner = self._runners.get(experiment.id)
+        return experiment if runner is None else experiment.model_copy(update={"phase": runner.phase})

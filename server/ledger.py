@@ -1,0 +1,129 @@
+"""Counters, metric points and checkpoints: written beside the loop, so that no proposal waits for their commits."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Callable, Coroutine
+from dataclasses import dataclass
+from typing import Any
+
+from server.crew import Crew
+from server.schemas import Counters, Experiment, MetricsAdded, Proposal, StreamEvent
+from server.store import Store, StoreError
+from server.worker import WorkerError
+
+log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class _Note:
+    predicted_feedback: float
+    label: int
+
+
+class Ledger:
+    """Takes a note of every counted click, and writes them down in their order when nobody waits."""
+
+    def __init__(
+        self,
+        experiment: Experiment,
+        store: Store,
+        crew: Crew,
+        *,
+        checkpoint_every: int,
+        publish: Callable[[StreamEvent], None],
+        changed: Callable[[Experiment], None],
+    ) -> None:
+        self._id = experiment.id
+        self._store = store
+        self._crew = crew
+        self._every = checkpoint_every
+        self._publish = publish
+        self._changed = changed
+        self._notes: list[_Note] = []
+        self._unsaved = 0
+        self._task: asyncio.Task[None] | None = None
+
+    def note(self, proposal: Proposal, label: int) -> None:
+        """Remember a counted click until `write`."""
+        self._notes.append(_Note(proposal.predicted_feedback, label))
+        self._unsaved += 1
+
+    def write(self) -> None:
+        """Write down what has been noted, soon."""
+        if self._notes:
+            notes, self._notes = self._notes, []
+            self._soon(self._write(notes, self._crew.metrics))
+
+    def refresh(self) -> None:
+        """Read the counters anew and tell everyone, soon."""
+        self._soon(self._refresh())
+
+    async def settled(self) -> None:
+        """Wait until everything is written."""
+        while self._task is not None and not self._task.done():
+            await asyncio.wait({self._task})
+
+    async def leave(self) -> None:
+        """Write what is left, and a checkpoint, when the loop ends."""
+        self.write()
+        self.refresh()
+        await self.settled()
+        if self._unsaved:
+            await self._checkpoint()
+
+    def _soon(self, work: Coroutine[Any, Any, None]) -> None:
+        previous = self._task
+
+        async def follow() -> None:
+            if previous is not None:
+                await asyncio.wait({previous})
+            try:
+                await work
+            except StoreError:
+                # the clicks themselves are stored; a figure that is missing is not worth stopping for
+                log.exception("experiment %d: metrics could not be stored", self._id)
+
+        self._task = asyncio.create_task(follow(), name=f"ledger {self._id}")
+
+    async def _write(self, notes: list[_Note], learner: dict[str, float]) -> None:
+        experiment = await self._store.experiment(self._id)
+        counters = experiment.counters
+        for behind, note in zip(range(len(notes) - 1, -1, -1), notes, strict=True):
+            values = values_of(counters, note.predicted_feedback, note.label) | learner
+            point = await self._store.add_metrics(self._id, counters.feedback - behind, values)
+            self._publish(MetricsAdded(point=point))
+        self._changed(experiment)
+        if self._unsaved >= self._every:
+            await self._checkpoint()
+
+    async def _refresh(self) -> None:
+        self._changed(await self._store.experiment(self._id))
+
+    async def _checkpoint(self) -> None:
+        """Save the learner. What can't be saved is only slower to rebuild: the labels are all stored."""
+        unsaved, self._unsaved = self._unsaved, 0
+        try:
+            saved = await self._crew.save()
+            await self._store.add_checkpoint(
+                self._id,
+                policy_version=saved.policy_version,
+                last_feedback_id=saved.last_feedback_id,
+                sha256=saved.sha256,
+            )
+        except WorkerError as error:
+            self._unsaved += unsaved
+            log.warning("experiment %d: no checkpoint: %s", self._id, error)
+
+
+def values_of(counters: Counters, predicted_feedback: float, label: int) -> dict[str, float]:
+    """What a metric point holds beside the learner's own values. good_share: of all counted feedback, 0 to 1."""
+    return {
+        "predicted_feedback": predicted_feedback,
+        "label": float(label),
+        "successes": float(counters.successes),
+        "executions": float(counters.executions),
+        "violations": float(counters.violations),
+        "good_share": counters.good / counters.feedback if counters.feedback else 0.0,
+    }

@@ -1,0 +1,494 @@
+"""One experiment's loop: Algorithm 1 of the paper, with a person's clicks, pauses, stops and deaths in between.
+
+`_train` is the algorithm. What the outside wants of it comes in three ways: a leave event that ends the loop at its
+next step, news about the open proposal (judged, undone, withdrawn), and the stop, which goes straight to the robot
+worker.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import logging
+import time
+from collections.abc import Callable, Coroutine
+from typing import Any
+
+import numpy as np
+
+from agent.algorithm import AgentError
+from robot_adapters.base import AdapterError
+from server.acting import Acting
+from server.crew import Crew, Seen
+from server.ledger import Ledger
+from server.publisher import Publisher
+from server.rollouts import roll_out
+from server.schemas import (
+    CloseReason,
+    Evaluation,
+    Experiment,
+    ExperimentChanged,
+    Feedback,
+    FeedbackCreate,
+    FeedbackStatus,
+    FeedbackStored,
+    FeedbackUndone,
+    Lifecycle,
+    Mode,
+    Phase,
+    Proposal,
+    ProposalClosed,
+    ProposalOpened,
+    StreamEvent,
+    Verdict,
+)
+from server.settings import Settings
+from server.store import Conflict, Store, StoreError
+from server.store_values import EpisodeOutcome, StoredLabel, Submission
+from server.teacher import Teacher, teacher
+from server.worker import WorkerDied, WorkerError
+
+log = logging.getLogger(__name__)
+
+STOP_GRACE = 2.0
+"""Seconds after an emergency stop until a robot worker that still moves is killed."""
+
+
+class Runner:
+    """Runs one experiment. Its public methods are the hub's; all of it lives on one event loop."""
+
+    def __init__(self, experiment: Experiment, store: Store, settings: Settings, publisher: Publisher) -> None:
+        self.experiment = experiment
+        self._store = store
+        self._publisher = publisher
+        self._crew = Crew(
+            experiment,
+            store,
+            settings,
+            on_frame=lambda header, jpeg: publisher.publish_frame(experiment.id, header, jpeg),
+            on_change=self._publish,
+        )
+        self._acting = Acting(experiment, store, self._crew, self._publish)
+        self._ledger = Ledger(
+            experiment,
+            store,
+            self._crew,
+            checkpoint_every=settings.checkpoint_every,
+            publish=self._publish,
+            changed=self.changed,
+        )
+        self._teacher: Teacher | None = teacher(experiment.teacher, self._acting.task) if experiment.teacher else None
+        self._task: asyncio.Task[None] | None = None
+        self._leave = asyncio.Event()
+        self._evaluating = False
+        self._until: int | None = None
+        # the episode that goes on, and what was seen last in it; None: reset, or look again
+        self._episode_open = False
+        self._executed = 0
+        self._seen: Seen | None = None
+        self._reset_wanted = False
+        # the proposal that waits for a click, or the one that a click has just closed: never both
+        self._open: Proposal | None = None
+        self._judged: Proposal | None = None
+        self._news = asyncio.Event()
+        self._votes: list[StoredLabel] = []
+        self._asked: int | None = None
+        self._waiting_since = 0.0
+        self.turn = asyncio.Lock()
+        """Opening a proposal, starting its execution, taking a click back and pausing exclude each other."""
+
+    # --- what the hub asks --------------------------------------------------------------------------------------
+
+    @property
+    def phase(self) -> Phase:
+        """What goes on right now."""
+        return self.experiment.phase
+
+    @property
+    def busy(self) -> bool:
+        """Whether the loop or an evaluation goes on."""
+        return self._task is not None and not self._task.done()
+
+    @property
+    def open_proposal_id(self) -> int | None:
+        """The proposal that waits for a click."""
+        return self._open.id if self._open is not None else None
+
+    @property
+    def evaluating(self) -> bool:
+        """Whether an evaluation goes on."""
+        return self.busy and self._evaluating
+
+    @property
+    def simulated(self) -> bool:
+        """Whether the robot is a simulated one."""
+        return self._acting.simulated
+
+    @property
+    def worker_pids(self) -> dict[str, int]:
+        """Process ids of the living workers, by role."""
+        return self._crew.pids
+
+    @property
+    def stops(self) -> int:
+        """Number of the newest emergency stop."""
+        return self._crew.stops
+
+    def go(self, *, until: int | None = None) -> None:
+        """Run the loop, after whatever still goes on; pause by itself once `until` feedback is stored."""
+        if self._crew.halted:  # the stop came while the verb that leads here was stored
+            return
+        self._evaluating = False
+        self._until = until
+        self._crew.forgive()
+        self._follow(self._run)
+
+    def evaluate(self, evaluation: Evaluation) -> None:
+        """Roll out the deterministic policy in the background."""
+        self._evaluating = True
+        self._follow(lambda leave: self._evaluate(evaluation, leave))
+
+    async def policy_version(self) -> int:
+        """Gradient steps taken, once those that are owed are taken too; of the newest checkpoint if none learns now."""
+        if self._crew.learner_ready:
+            with contextlib.suppress(WorkerError):
+                await self._crew.flush()
+                return self._crew.policy_version
+        newest = await self._store.latest_checkpoint(self.experiment.id)
+        return newest.policy_version if newest is not None else 0
+
+    def dismiss(self) -> None:
+        """End the workers once nothing goes on: the experiment is over."""
+        self._follow(lambda _: self._dismiss())
+
+    def leave(self) -> None:
+        """End the loop at its next step; a skill that moves ends first."""
+        self._leave.set()
+        self._news.set()
+
+    def stop(self) -> None:
+        """Emergency stop: the robot first, at once and latched; then the loop."""
+        self._crew.stop()
+        self.leave()
+        self._seen = None
+        if self.phase in (Phase.EXECUTING, Phase.EVALUATING):
+            asyncio.get_running_loop().call_later(STOP_GRACE, self._insist, self._task)
+
+    async def rearm(self, upto: int) -> None:
+        """Lift the stops up to number `upto`; nothing moves by that."""
+        with contextlib.suppress(WorkerDied):  # the next one starts re-armed
+            await self._crew.rearm(upto)
+
+    async def reset(self) -> None:
+        """Begin a new episode: now if a proposal waits, else as soon as the skill has ended, or at resume."""
+        self._reset_wanted = True
+        await self.withdraw()
+
+    async def withdraw(self, reason: CloseReason = CloseReason.WITHDRAWN) -> None:
+        """Close the open proposal without a verdict."""
+        async with self.turn:
+            if self._open is not None:
+                closed = await self._store.close_proposal(self._open.id, reason)
+                if closed.close_reason is not CloseReason.JUDGED:  # else the click was first, and is on its way here
+                    self._open = None
+                    self._publish(ProposalClosed(proposal=closed))
+        self._news.set()
+
+    async def idle(self) -> None:
+        """Wait until neither the loop nor an evaluation goes on."""
+        while self._task is not None and not self._task.done():
+            await asyncio.wait({self._task})
+        await self._ledger.settled()
+
+    async def close(self, *, grace: float) -> None:
+        """End loop and workers; what still goes on after `grace` seconds is cut off, and found interrupted later."""
+        self.leave()
+        if self._task is not None and not self._task.done():
+            if self.phase in (Phase.EXECUTING, Phase.EVALUATING):
+                self._crew.stop()
+            _, late = await asyncio.wait({self._task}, timeout=grace)
+            for task in late:
+                task.cancel()
+                with contextlib.suppress(asyncio.CancelledError):
+                    await task
+        await self._ledger.settled()
+        await self._crew.close()
+
+    def changed(self, experiment: Experiment) -> None:
+        """Take over what is stored, unless something newer is known; keep the live phase, and tell everyone."""
+        if experiment.updated_at < self.experiment.updated_at:
+            return
+        self.experiment = experiment.model_copy(update={"phase": self.phase})
+        self._news.set()
+        self._publish(ExperimentChanged(experiment=self.experiment))
+
+    # --- clicks -------------------------------------------------------------------------------------------------
+
+    async def feedback(self, proposal_id: int, body: FeedbackCreate, *, kind: str = "person") -> Submission:
+        """Store a click, then act on it: it is committed before anybody hears of it, and before this returns."""
+        submission = await self._store.submit_feedback(proposal_id, body, kind=kind)
+        feedback, closed = submission.feedback, submission.closed
+        if submission.duplicate:
+            return submission
+        if feedback.status is FeedbackStatus.LATE:
+            self._publish(FeedbackStored(feedback=feedback, undoable=False))
+            return submission
+        proposal = closed if closed is not None else self._open
+        if proposal is not None and proposal.id == proposal_id:
+            self._votes.append(label_of(proposal, feedback))
+            self._ledger.note(proposal, feedback.value)
+        if closed is not None:
+            self._open, self._judged = None, closed
+            # without a verdict there is nothing to learn: the votes of a proposal come together
+            votes, self._votes = self._votes, []
+            for vote in votes:
+                self._crew.learn(vote)
+        moves = closed is not None and closed.verdict is Verdict.GOOD and self.experiment.mode is Mode.EXECUTE_APPROVED
+        self._publish(FeedbackStored(feedback=feedback, undoable=not moves))
+        if closed is not None and closed.verdict is not Verdict.GOOD:
+            self._publish(ProposalClosed(proposal=closed))
+        self._news.set()
+        return submission
+
+    async def undo(self, feedback_id: int) -> Feedback:
+        """Take the newest click back: its proposal is open again, the one opened since is withdrawn."""
+        async with self.turn:
+            undone = await self._store.undo_feedback(feedback_id)
+            self._crew.forget(feedback_id)
+            self._await_click(undone.reopened)
+            self._judged = None
+        self._publish(FeedbackUndone(feedback=undone.feedback))
+        if undone.withdrawn is not None:
+            self._publish(ProposalClosed(proposal=undone.withdrawn))
+        self._publish(ProposalOpened(proposal=undone.reopened))
+        self._ledger.refresh()
+        self._news.set()
+        return undone.feedback
+
+    # --- the loop -----------------------------------------------------------------------------------------------
+
+    async def _train(self, leave: asyncio.Event) -> None:
+        """Algorithm 1; in brackets the lines of the paper."""
+        self.enter(Phase.STARTING)
+        await self._crew.bring_up()  # [1] the replay is a view of the stored feedback
+        while not leave.is_set() and not await self._enough():
+            seen = await self._look()  # [2-4] a new episode where the last one has ended
+            await self._propose(seen)  # [5, 6]
+            self._ledger.write()
+            judged = await self._query(leave)  # [7, 8]
+            if judged is not None and judged.verdict is Verdict.GOOD:
+                await self._execute(judged, seen)  # [9-11]
+            if self.experiment.lockstep and not leave.is_set():
+                self.enter(Phase.LEARNING)
+                await self._crew.flush()  # [12] otherwise the learner works while nobody asks it anything
+
+    async def _look(self) -> Seen:
+        """What the robot sees now: of a new episode, or of the one that goes on."""
+        if self._reset_wanted:
+            self._reset_wanted = False
+            await self._end_episode("reset")
+        if not self._episode_open:
+            self.enter(Phase.OBSERVING)
+            number = (await self._store.experiment(self.experiment.id)).counters.episodes + 1
+            seed = episode_seed(self.experiment.seed, number)
+            async with self.turn:
+                await self._store.begin_episode(self.experiment.id, seed)
+            self._episode_open, self._executed = True, 0
+            self._seen = await self._crew.reset(seed)
+        elif self._seen is None:
+            self.enter(Phase.OBSERVING)
+            self._seen = await self._crew.observe()
+        return self._seen
+
+    async def _propose(self, seen: Seen) -> None:
+        """Have a proposal open: the reopened one after an undo, else a new one. It is stored before it is shown."""
+        if self._open is None and self._judged is None:
+            drawn = await self._acting.draw(seen)
+            async with self.turn:
+                if self._open is None and not self._leave.is_set():
+                    self._await_click(await self._store.open_proposal(drawn))
+                    self._publish(ProposalOpened(proposal=self._open))
+
+    async def _query(self, leave: asyncio.Event) -> Proposal | None:
+        """Wait until the open proposal is judged, by a person or by the teacher; None where it closed otherwise.
+
+        Raises:
+            WorkerDied: a worker went away while this waited.
+        """
+        if self._open is not None:
+            self.enter(Phase.AWAITING_FEEDBACK)
+        while self._open is not None and not leave.is_set():
+            self._news.clear()
+            if self._teacher is not None and self._asked != self._open.id:
+                await self._ask_teacher(self._teacher, self._open)
+            elif not await self._news_or_death():
+                await self.withdraw(CloseReason.TIMED_OUT)
+        judged = self._judged
+        if judged is not None and judged.verdict is not Verdict.GOOD:
+            self._judged = None
+        return judged
+
+    async def _execute(self, judged: Proposal, seen: Seen) -> None:
+        """Run the approved call if the gate opens, and end the episode if that solved or spoiled the task."""
+        self.enter(Phase.DECIDING)
+        async with self.turn:
+            if self._judged is not judged:  # taken back in the meantime
+                return
+            self._judged = None
+            execution = await self._acting.decide(judged, seen)
+        if execution is None:
+            return
+        self.enter(Phase.EXECUTING)
+        done = await self._acting.move(judged, execution)
+        self._seen = None
+        self._executed += 1
+        if any(kind == "manual_reset" for kind, _ in done.violations):
+            await self._end_episode("violation")
+        elif done.task_success:
+            await self._end_episode("success")
+        elif self._executed >= self._acting.task.horizon:
+            await self._end_episode("horizon")
+
+    # --- around the loop ----------------------------------------------------------------------------------------
+
+    def _follow(self, work: Callable[[asyncio.Event], Coroutine[Any, Any, None]]) -> None:
+        """Start `work` once what goes on has ended. Each has a leave event of its own."""
+        previous, self._leave = self._task, asyncio.Event()
+        leave = self._leave
+
+        async def follow() -> None:
+            if previous is not None:
+                await asyncio.wait({previous})
+            await self._guarded(work(leave))
+
+        self._task = asyncio.create_task(follow(), name=f"experiment {self.experiment.id}")
+
+    async def _run(self, leave: asyncio.Event) -> None:
+        """The loop, mended after every death, until it is told to leave."""
+        while not leave.is_set() and not await self._enough():
+            try:
+                await self._train(leave)
+            except WorkerDied as death:
+                await self._mend(death)
+            except Conflict:
+                if not leave.is_set():  # else a pause or a stop came between two steps
+                    raise
+        await self.withdraw()
+        if self._judged is not None:  # approved, and then the loop ended: the gate was never asked
+            self._publish(ProposalClosed(proposal=self._judged))
+            self._judged = None
+        await self._ledger.leave()
+
+    async def _guarded(self, work: Coroutine[Any, Any, None]) -> None:
+        """Run the loop or an evaluation; what it can't mend makes the experiment fail, and says why."""
+        try:
+            await work
+        except (WorkerError, AdapterError, AgentError, StoreError) as error:
+            log.warning("experiment %d failed: %s", self.experiment.id, error)
+            await self._fail(f"{error}. {error.remedy}")
+        except Exception:
+            log.exception("experiment %d failed", self.experiment.id)
+            await self._fail("the service met an error of its own. See the server's log, then resume")
+        finally:
+            self.enter(Phase.IDLE)
+
+    async def _mend(self, death: WorkerDied) -> None:
+        """Clear up after a death; the next round of the loop starts a new worker."""
+        await self._crew.bury(death)
+        if death.worker == "robot":
+            self._seen = None
+            await self.withdraw(CloseReason.INTERRUPTED)
+            await self._end_episode("interrupted")
+
+    async def _evaluate(self, evaluation: Evaluation, leave: asyncio.Event) -> None:
+        self.enter(Phase.EVALUATING)
+        await self._end_episode("reset")
+        try:
+            await roll_out(evaluation, self._acting, self._crew, self._store, leave=leave, publish=self._publish)
+        except WorkerDied as death:
+            await self._crew.bury(death)
+
+    async def _dismiss(self) -> None:
+        await self._end_episode("reset")
+        await self._crew.close()
+
+    async def _fail(self, why: str) -> None:
+        self._seen = None
+        with contextlib.suppress(StoreError):  # a full disk can't even be told of; the log has it
+            await self.withdraw(CloseReason.INTERRUPTED)
+            await self._end_episode("interrupted")
+            self.changed(await self._store.transition(self.experiment.id, "fail", failure=why))
+
+    async def _enough(self) -> bool:
+        """Whether the wanted amount of feedback is stored; then the experiment pauses itself."""
+        if self._until is None:
+            return False
+        stored = await self._store.experiment(self.experiment.id)
+        if stored.counters.feedback < self._until:
+            return False
+        if stored.lifecycle is Lifecycle.RUNNING:
+            self.changed(await self._store.transition(self.experiment.id, "pause"))
+        return True
+
+    async def _end_episode(self, outcome: EpisodeOutcome) -> None:
+        if self._episode_open:
+            self._episode_open = False
+            await self._store.end_episode(self.experiment.id, outcome)
+        self._seen = None
+
+    async def _ask_teacher(self, judge: Teacher, proposal: Proposal) -> None:
+        self._asked = proposal.id
+        value = judge.judge(np.array(proposal.state), self._acting.call_of(proposal))
+        body = FeedbackCreate(
+            click_id=f"teacher-{proposal.id}", value=value, trainer=f"teacher:{self.experiment.teacher}"
+        )
+        await self.feedback(proposal.id, body, kind="teacher")
+
+    def _await_click(self, proposal: Proposal) -> None:
+        self._open, self._votes = proposal, []
+        self._waiting_since = time.monotonic()
+
+    async def _news_or_death(self) -> bool:
+        """Wait for news of the open proposal; False if its time is over first."""
+        limit = self.experiment.feedback_timeout
+        left = None if limit is None else max(0.0, self._waiting_since + limit - time.monotonic())
+        waits = {
+            asyncio.ensure_future(self._news.wait()),
+            asyncio.ensure_future(self._crew.death("robot")),
+            asyncio.ensure_future(self._crew.death("learner")),
+        }
+        try:
+            done, _ = await asyncio.wait(waits, timeout=left, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            for wait in waits:
+                wait.cancel()
+        for wait in done:
+            if isinstance(death := wait.result(), WorkerDied):
+                raise death
+        return bool(done)
+
+    def _insist(self, task: asyncio.Task[None] | None) -> None:
+        """The emergency stop's last word: a robot worker that still moves is killed."""
+        if task is not None and not task.done() and self.phase in (Phase.EXECUTING, Phase.EVALUATING):
+            log.error("experiment %d: the robot worker did not stop in %g s", self.experiment.id, STOP_GRACE)
+            self._crew.kill_robot()
+
+    def enter(self, phase: Phase) -> None:
+        """Change the live phase and tell everyone."""
+        if self.phase is not phase:
+            self.experiment = self.experiment.model_copy(update={"phase": phase})
+            self._publish(ExperimentChanged(experiment=self.experiment))
+
+    def _publish(self, event: StreamEvent) -> None:
+        self._publisher.publish(self.experiment.id, event)
+
+
+def episode_seed(experiment_seed: int, number: int) -> int:
+    """The seed of an episode: the same for the same experiment seed and episode number, unrelated between any two."""
+    return int(np.random.SeedSequence([experiment_seed, number]).generate_state(1)[0]) >> 1
+
+
+def label_of(proposal: Proposal, feedback: Feedback) -> StoredLabel:
+    """What the learner is told of a click."""
+    parameters = tuple(proposal.parameters.values())
+    return StoredLabel(feedback.id, tuple(proposal.state), proposal.skill, parameters, feedback.value)

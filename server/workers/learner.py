@@ -1,0 +1,213 @@
+"""The learner worker: proposes skill calls and trains from labels, also while nobody asks it anything.
+
+Between requests it works off the gradient steps that the labels owe, and looks for a request between any two of them:
+the time a person thinks trains the network, and a request waits for one step at most.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import json
+import logging
+import os
+from collections.abc import Mapping, Sequence
+from importlib.metadata import entry_points
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from agent.algorithm import AgentError, Algorithm, AlgorithmFactory, Label, Problem
+from robot_adapters import registry
+from robot_adapters.base import SkillCall
+from robot_adapters.tasks.base import Task, state_bounds
+from server.workers.channel import Pipes, Refusal, answer, open_pipes
+
+log = logging.getLogger(__name__)
+
+NEAR = 0.05
+"""m in the xy plane: what counts as near a task-relevant object (the paper gives no number; about two block widths)."""
+
+
+class Learner:
+    """The commands, one method each."""
+
+    def __init__(self) -> None:
+        self._algorithm: Algorithm | None = None
+        self._task: Task
+        self._metrics: dict[str, float] = {}
+        self._fault: AgentError | None = None
+        self._lockstep = False
+        self._starved = False
+        """The last update had nothing to learn from: no more before something new comes."""
+
+    @property
+    def algorithm(self) -> Algorithm:
+        """The configured algorithm, as long as its training is sound."""
+        if self._fault is not None:
+            raise self._fault
+        if self._algorithm is None:
+            raise Refusal("the learner isn't configured yet", remedy="send `configure` first")
+        return self._algorithm
+
+    @property
+    def busy(self) -> bool:
+        """Whether gradient steps are owed."""
+        return self._able and self.algorithm.owed_updates > 0
+
+    @property
+    def eager(self) -> bool:
+        """Whether steps may be taken now: owed ones, or, where nothing must be repeatable, spare ones."""
+        return self.busy or (self._able and not self._lockstep and self.algorithm.spare_updates > 0)
+
+    @property
+    def _able(self) -> bool:
+        return self._algorithm is not None and self._fault is None and not self._starved
+
+    def configure(
+        self, *, task: str, algorithm: str, settings: dict[str, Any], seed: int, lockstep: bool, threads: int
+    ) -> dict[str, Any]:
+        """Build the algorithm. `settings` are complete: the preset has been merged in."""
+        import torch  # noqa: PLC0415 - here, so that this module can be imported without it
+
+        torch.set_num_threads(threads)
+        factory = _factory(algorithm)
+        self._task = registry.task(task)
+        self._lockstep = lockstep
+        self._algorithm = factory(_problem(self._task), factory.settings.model_validate(settings), seed)
+        return self._status()
+
+    def propose(self, *, state: list[float], deterministic: bool) -> dict[str, Any]:
+        """Suggest a call."""
+        s = self.algorithm.propose(np.array(state, dtype=np.float64), deterministic=deterministic)
+        return {
+            "skill": s.call.skill,
+            "parameters": [float(p) for p in s.call.parameters],
+            "predicted_feedback": float(s.predicted_feedback),
+            "skill_probabilities": {k: float(v) for k, v in s.skill_probabilities.items()},
+        } | self._status()
+
+    def add(self, *, labels: list[dict[str, Any]]) -> dict[str, Any]:
+        """Take new labels; the steps they owe come later."""
+        self.algorithm.add(self._labels(labels))
+        return self._status()
+
+    def restore(self, *, labels: list[dict[str, Any]]) -> dict[str, Any]:
+        """Fill the replay after a start; labels newer than the checkpoint owe their steps."""
+        self.algorithm.restore(self._labels(labels))
+        return self._status()
+
+    def forget(self, *, feedback_id: int) -> dict[str, Any]:
+        """Take an undone label back."""
+        self.algorithm.forget(feedback_id)
+        return self._status()
+
+    def flush(self) -> dict[str, Any]:
+        """Answered once no gradient step is owed (`serve` holds the reply back until then)."""
+        return self._status()
+
+    def save(self, *, path: str) -> dict[str, Any]:
+        """Write a checkpoint atomically."""
+        target = Path(path)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        self.algorithm.save(target)
+        return {"sha256": hashlib.sha256(target.read_bytes()).hexdigest()} | self._status()
+
+    def load(self, *, path: str) -> dict[str, Any]:
+        """Read a checkpoint."""
+        self.algorithm.load(Path(path))
+        return self._status()
+
+    def step(self) -> None:
+        """One gradient step. If training is no longer sound, it ends, and every later request is told why."""
+        try:
+            metrics = self.algorithm.update()
+        except AgentError as error:
+            self._fault = error
+        else:
+            self._starved = metrics is None
+            self._metrics = {k: float(v) for k, v in (metrics or {}).items()}
+
+    def _labels(self, labels: Sequence[Mapping[str, Any]]) -> list[Label]:
+        self._starved = False
+        return [_label(self._task, stored) for stored in labels]
+
+    def _status(self) -> dict[str, Any]:
+        return {
+            "policy_version": self.algorithm.policy_version,
+            "last_label_id": self.algorithm.last_label_id,
+            "owed_updates": self.algorithm.owed_updates,
+            "metrics": self._metrics,
+        }
+
+
+def near(task: Task, state: np.ndarray[Any, np.dtype[np.float64]], call: SkillCall) -> bool:
+    """The paper's affordance: whether the call's position is near a task-relevant object.
+
+    True for a skill without a position, and where the state names no objects: nothing to be far from.
+    """
+    spec = next(s for s in task.skills if s.name == call.skill)
+    named = call.named(spec)
+    keypoints = task.keypoints(state)
+    if "x" not in named or len(keypoints) == 0:
+        return True
+    distances = np.linalg.norm(keypoints[:, :2] - np.array([named["x"], named["y"]]), axis=1)
+    return bool(distances.min() <= NEAR)
+
+
+def serve(pipes: Pipes) -> None:
+    """Answer requests until the server is gone; take gradient steps in between."""
+    learner = Learner()
+    names = ("configure", "propose", "add", "restore", "forget", "flush", "save", "load")
+    handlers = {name: getattr(learner, name) for name in names}
+    commands = pipes.commands
+    flushes: list[Mapping[str, Any]] = []
+    with contextlib.suppress(BrokenPipeError, ConnectionResetError):
+        while True:
+            if learner.eager and not commands.poll(0):
+                learner.step()
+                if not learner.busy:
+                    for request in flushes:
+                        commands.send(json.dumps(answer(request, handlers)).encode())
+                    flushes.clear()
+                continue
+            message = commands.receive()
+            if message is None:
+                return
+            request = json.loads(message)
+            if request["command"] == "flush" and learner.busy:
+                flushes.append(request)
+            else:
+                commands.send(json.dumps(answer(request, handlers)).encode())
+
+
+def _label(task: Task, stored: Mapping[str, Any]) -> Label:
+    state = np.array(stored["state"], dtype=np.float64)
+    call = SkillCall(stored["skill"], tuple(stored["parameters"]))
+    return Label(stored["id"], state, call, stored["value"], near(task, state, call))
+
+
+def _problem(task: Task) -> Problem:
+    low, high = state_bounds(task.state_fields)
+    return Problem(task.name, low, high, task.skills)
+
+
+def _factory(name: str) -> AlgorithmFactory:
+    for entry in entry_points(group="seed.algorithms"):
+        if entry.name == name:
+            factory: AlgorithmFactory = entry.load()
+            return factory
+    raise Refusal(f"unknown algorithm {name!r}", remedy="install the package that brings it")
+
+
+def main() -> None:
+    """Entry point of the process."""
+    # the server must stay quick on a machine with few cores; learning can wait a little
+    os.nice(5)
+    serve(open_pipes("learner"))
+    os._exit(0)
+
+
+if __name__ == "__main__":
+    main()

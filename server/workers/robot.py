@@ -1,0 +1,188 @@
+"""The robot worker: owns the robot or simulator with its graphics, looks, draws overlays, and runs approved skills.
+
+Everything that touches the adapter happens on the main thread (a GL context belongs to the thread that made it). Only
+the stop latch listens beside it, so that a stop never waits behind a skill.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+import json
+import logging
+import os
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from robot_adapters import registry
+from robot_adapters.base import Adapter, AdapterError, EndReason, Observation, SkillCall
+from server.images import Images
+from server.workers.channel import FrameSender, Pipes, Refusal, StopLatch, answer, open_pipes
+
+log = logging.getLogger(__name__)
+
+FRAME_INTERVAL = 0.1
+"""Seconds between two live pictures while a skill runs. Cameras take turns: 5 a second each with two cameras."""
+
+
+class Latched(Refusal):
+    """Nothing moves while a stop is latched."""
+
+
+class Robot:
+    """The commands, one method each. Replies are JSON; positions in m, robot base frame."""
+
+    def __init__(self, latch: StopLatch, frames: FrameSender) -> None:
+        self._latch = latch
+        self._frames = frames
+        self._adapter: Adapter | None = None
+        self._images: Images
+        self._executed = 0
+
+    @property
+    def adapter(self) -> Adapter:
+        """The built adapter."""
+        if self._adapter is None:
+            raise Refusal("the robot isn't built yet", remedy="send `build` first")
+        return self._adapter
+
+    def build(self, *, adapter: str, task: str, settings: dict[str, Any], data_dir: str) -> dict[str, Any]:
+        """Build the adapter; the slow part of a start, because simulators are imported here."""
+        factory = registry.adapter(adapter)
+        self._images = Images(Path(data_dir))
+        self._adapter = factory(task, factory.settings.model_validate(settings))
+        info = self._adapter.info
+        return {"name": info.name, "simulated": info.simulated, "cameras": list(info.cameras)}
+
+    def reset(self, *, seed: int | None) -> dict[str, Any]:
+        """Start an episode and look."""
+        self._must_be_armed()
+        return self._seen(self.adapter.reset(seed))
+
+    def observe(self) -> dict[str, Any]:
+        """Look, without moving."""
+        return self._seen(self.adapter.observe())
+
+    def overlay(self, *, skill: str, parameters: list[float]) -> dict[str, Any]:
+        """The call drawn for every camera of the newest observation."""
+        drawn = self.adapter.overlays(SkillCall(skill, tuple(parameters)))
+        return {"overlays": {camera: dataclasses.asdict(overlay) for camera, overlay in drawn.items()}}
+
+    def execute(
+        self, *, proposal_id: int | None, execution_id: int | None, digest: str, skill: str, parameters: list[float]
+    ) -> dict[str, Any]:
+        """Run an approved skill to its end, streaming pictures.
+
+        The last door before a motion: it opens once per proposal, only for the parameters that were approved, and not
+        while a stop is latched. Times in the reply are CLOCK_MONOTONIC, which all processes of a machine share.
+        """
+        call = SkillCall(skill, tuple(float(p) for p in parameters))
+        if proposal_id is None or execution_id is None:
+            raise Refusal("a call without a proposal never runs", remedy="have it proposed and approved")
+        if call.digest != digest:
+            raise Refusal("these are not the approved parameters", remedy="have exactly these parameters approved")
+        if proposal_id <= self._executed:
+            raise Refusal(f"proposal {proposal_id} has had its execution", remedy="have it proposed again")
+        self._must_be_armed()
+        self._executed = proposal_id
+        video = _Video(self.adapter, self._frames, execution_id)
+        try:
+            result = self.adapter.execute(call, should_stop=self._latch.stopped, on_step=video.step)
+        except AdapterError:
+            raise
+        except Exception as error:
+            # nobody knows where the arm is now: end the process, so that the server records an interruption
+            log.exception("proposal %d: the skill broke off", proposal_id)
+            raise SystemExit(1) from error
+        return {
+            "end": str(result.end),
+            "arrived": result.end is EndReason.ARRIVED,
+            "stopped": result.end is EndReason.STOPPED,
+            "low_level_steps": result.low_level_steps,
+            "task_success": self.adapter.success(),
+            "violations": [dataclasses.asdict(v) for v in result.violations],
+            "first_set_point_at": video.first,
+            "last_set_point_at": video.last,
+            "frames": video.sent,
+        }
+
+    def rearm(self, *, upto: int) -> dict[str, Any]:
+        """Lift the stops up to number `upto`."""
+        self._latch.rearm(upto)
+        return {"stopped": self._latch.stopped()}
+
+    def close(self) -> None:
+        """Release the adapter."""
+        if self._adapter is not None:
+            self._adapter.close()
+
+    def _must_be_armed(self) -> None:
+        if self._latch.stopped():
+            raise Latched("the emergency stop is latched", remedy="re-arm the experiment first")
+
+    def _seen(self, observation: Observation) -> dict[str, Any]:
+        views = [
+            {"camera": f.camera, "image": self._images.put(f.jpeg), "width": f.width, "height": f.height}
+            for f in observation.frames.values()
+        ]
+        return {
+            "id": observation.id,
+            "state": [float(x) for x in observation.state],
+            "taken_at": observation.taken_at,
+            "views": views,
+            "success": self.adapter.success(),
+        }
+
+
+class _Video:
+    """Pictures of a running skill: at most one after any set-point, so that stop is looked at between any two."""
+
+    def __init__(self, adapter: Adapter, frames: FrameSender, execution_id: int) -> None:
+        self._adapter = adapter
+        self._frames = frames
+        self._execution = execution_id
+        self._due = 0.0
+        self.sent = 0
+        self.first: float | None = None
+        self.last: float | None = None
+
+    def step(self) -> None:
+        """Note the set-point's time; send the next camera's picture if one is due."""
+        self.last = time.monotonic()
+        if self.first is None:
+            self.first = self.last
+        if self.last < self._due:
+            return
+        self._due = self.last + FRAME_INTERVAL
+        cameras = self._adapter.info.cameras
+        if not cameras:
+            return
+        frame = self._adapter.frame(cameras[self.sent % len(cameras)])
+        self.sent += 1
+        header = {k: getattr(frame, k) for k in ("camera", "width", "height", "taken_at")}
+        self._frames.send(header | {"execution_id": self._execution}, frame.jpeg)
+
+
+def serve(pipes: Pipes) -> None:
+    """Answer commands until the server is gone."""
+    robot = Robot(StopLatch(pipes.stop), FrameSender(pipes.frames))
+    names = ("build", "reset", "observe", "overlay", "execute", "rearm")
+    handlers = {name: getattr(robot, name) for name in names}
+    with contextlib.suppress(BrokenPipeError, ConnectionResetError):
+        while (message := pipes.commands.receive()) is not None:
+            request: Mapping[str, Any] = json.loads(message)
+            pipes.commands.send(json.dumps(answer(request, handlers)).encode())
+    robot.close()
+
+
+def main() -> None:
+    """Entry point of the process."""
+    serve(open_pipes("robot"))
+    # the interpreter's own way out frees GL contexts in an order that some drivers crash on; nothing is left to save
+    os._exit(0)
+
+
+if __name__ == "__main__":
+    main()
