@@ -8,6 +8,7 @@ OPEN = GateDecision(allowed=True, reason="open")
 
 
 def decide(
+    *,
     mode: Mode,
     verdict: Verdict | None,
     lifecycle: Lifecycle,
@@ -32,6 +33,7 @@ def decide(
 
 
 def decide_evaluation(
+    *,
     verdict: Verdict | None,
     lifecycle: Lifecycle,
     halted: bool,

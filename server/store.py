@@ -162,6 +162,7 @@ class Store(Reads):
         self,
         execution_id: int,
         outcome: schemas.ExecutionOutcome,
+        *,
         end_reason: str | None,
         low_level_steps: int,
         task_success: bool,
@@ -170,7 +171,15 @@ class Store(Reads):
         """Write the outcome, once."""
         return await self._write(
             lambda s: wire.execution(
-                store_executions.end(s, execution_id, outcome, end_reason, low_level_steps, task_success, violations)
+                store_executions.end(
+                    s,
+                    execution_id,
+                    outcome=outcome,
+                    end_reason=end_reason,
+                    low_level_steps=low_level_steps,
+                    task_success=task_success,
+                    violations=violations,
+                )
             )
         )
 
@@ -181,9 +190,9 @@ class Store(Reads):
         return await self._write(lambda s: wire.metric(store_records.add_metrics(s, experiment_id, feedback, values)))
 
     async def create_evaluation(
-        self, experiment_id: int, *, rollouts: int, seed: int, policy_version: int
+        self, experiment_id: int, *, rollouts: int, seed: int, policy_version: int = 0
     ) -> schemas.Evaluation:
-        """An evaluation that has begun."""
+        """An evaluation that has begun; its proposals bring the policy version along."""
         return await self._write(
             lambda s: wire.evaluation(store_records.create_evaluation(s, experiment_id, rollouts, seed, policy_version))
         )
@@ -225,7 +234,7 @@ class Store(Reads):
 
     async def remember(self, key: str, route: str, body_digest: str, status: int, body: Any) -> None:
         """Keep an answer (JSON) for a day."""
-        await self._write(lambda s: store_records.remember(s, key, route, body_digest, status, body))
+        await self._write(lambda s: store_records.remember(s, key, route, body_digest, status=status, body=body))
 
     # ----------------------------------------------------------------------------------------------------------------
 

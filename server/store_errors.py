@@ -67,5 +67,5 @@ class NewerDatabase(StoreError):
     def __init__(self, revision: str) -> None:
         super().__init__(
             f"the database has revision {revision}, which this version doesn't know",
-            remedy="install the newer version that wrote it, or open a backup from the directory `backups` of the data directory",
+            remedy="install the version that wrote it, or put back a copy from the directory `backups`",
         )

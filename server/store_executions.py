@@ -30,7 +30,8 @@ def begin(
     """
     proposal = load_proposal(session, proposal_id)
     if proposal.closed_at is None:
-        raise Conflict(f"proposal {proposal_id} is still open", remedy="wait for its verdict")
+        # an undo was quicker: this isn't the proposal's decision, that one comes with its next verdict
+        return schemas.GateDecision(allowed=False, reason="it is open again"), None
     if proposal.gate_allowed is not None:
         reason = "it was executed already" if proposal.gate_allowed else str(proposal.gate_reason)
         return schemas.GateDecision(allowed=False, reason=reason), None
@@ -66,6 +67,7 @@ def begin(
 def end(
     session: Session,
     execution_id: int,
+    *,
     outcome: schemas.ExecutionOutcome,
     end_reason: str | None,
     low_level_steps: int,
@@ -126,15 +128,20 @@ def _decide(
     lifecycle = schemas.Lifecycle(experiment.lifecycle)
     if proposal.purpose == "evaluation":
         return gate.decide_evaluation(
-            verdict, lifecycle, experiment.halted, simulated, workspace_ok, observation_current
+            verdict=verdict,
+            lifecycle=lifecycle,
+            halted=experiment.halted,
+            simulated=simulated,
+            workspace_ok=workspace_ok,
+            observation_current=observation_current,
         )
     return gate.decide(
-        schemas.Mode(experiment.mode),
-        verdict,
-        lifecycle,
-        experiment.halted,
-        simulated,
-        operator_present,
-        workspace_ok,
-        observation_current,
+        mode=schemas.Mode(experiment.mode),
+        verdict=verdict,
+        lifecycle=lifecycle,
+        halted=experiment.halted,
+        simulated=simulated,
+        operator_present=operator_present,
+        workspace_ok=workspace_ok,
+        observation_current=observation_current,
     )

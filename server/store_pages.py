@@ -23,9 +23,9 @@ def page(
     query: Select[Any],
     key: Any,
     wire: Callable[[Any], T],
+    *,
     cursor: str | None,
     limit: int,
-    *,
     newest_first: bool = True,
 ) -> tuple[list[T], str | None]:
     """One page of `query` ordered by the integer column `key`, and the cursor of the next page, None on the last.

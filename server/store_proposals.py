@@ -8,7 +8,15 @@ from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
 from server import aggregation, lifecycle, schemas
-from server.models import ExecutionRow, ExperimentRow, FeedbackRow, ObservationRow, ProposalRow, TrainerRow
+from server.models import (
+    EvaluationRow,
+    ExecutionRow,
+    ExperimentRow,
+    FeedbackRow,
+    ObservationRow,
+    ProposalRow,
+    TrainerRow,
+)
 from server.store_errors import Conflict, NotFound
 from server.store_experiments import begin_episode, journal, load, must_be_running, now, open_episode, state
 from server.store_values import NewProposal, NewView, Submission, Undone
@@ -71,6 +79,12 @@ def open_proposal(session: Session, new: NewProposal) -> ProposalRow:
     if new.purpose == "training":
         experiment.proposals += 1
         experiment.updated_at = now()
+    else:
+        running = select(EvaluationRow).where(
+            EvaluationRow.experiment_id == new.experiment_id, EvaluationRow.ended_at.is_(None)
+        )
+        for evaluation in session.scalars(running):
+            evaluation.policy_version = new.policy_version
     session.flush()
     return row
 

@@ -73,6 +73,14 @@ class Reads:
         items, after = await self._page(query, models.FeedbackRow.id, wire.feedback, cursor, limit)
         return schemas.FeedbackPage(items=items, next_cursor=after)
 
+    async def feedback_of_experiment(
+        self, experiment_id: int, cursor: str | None = None, limit: int = 50
+    ) -> schemas.FeedbackPage:
+        """Clicks of an experiment, late and undone ones too, newest first."""
+        query = select(models.FeedbackRow).where(models.FeedbackRow.experiment_id == experiment_id)
+        items, after = await self._page(query, models.FeedbackRow.id, wire.feedback, cursor, limit, of=experiment_id)
+        return schemas.FeedbackPage(items=items, next_cursor=after)
+
     async def labels(self, experiment_id: int, after_id: int = 0) -> list[StoredLabel]:
         """What the learner trains from, ascending by feedback id."""
         return await self._database.read(lambda s: store_records.labels(s, experiment_id, after_id))
@@ -154,7 +162,7 @@ class Reads:
 
         return await self._database.read(find)
 
-    async def _maybe(self, query: Select[tuple[T]], convert: Callable[[T], W]) -> W | None:
+    async def _maybe(self, query: Select[T], convert: Callable[[T], W]) -> W | None:
         def find(session: Session) -> W | None:
             row = session.scalars(query).one_or_none()
             return convert(row) if row is not None else None
@@ -163,7 +171,7 @@ class Reads:
 
     async def _page(
         self,
-        query: Select[tuple[T]],
+        query: Select[T],
         key: Any,
         convert: Callable[[T], W],
         cursor: str | None,
@@ -175,6 +183,6 @@ class Reads:
         def find(session: Session) -> tuple[list[W], str | None]:
             if of is not None:
                 store_experiments.load(session, of)
-            return store_pages.page(session, query, key, convert, cursor, limit, newest_first=newest_first)
+            return store_pages.page(session, query, key, convert, cursor=cursor, limit=limit, newest_first=newest_first)
 
         return await self._database.read(find)

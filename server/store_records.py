@@ -134,7 +134,7 @@ def idempotent(session: Session, key: str, route: str, body_digest: str) -> Stor
     return StoredResponse(row.status, json.loads(row.body))
 
 
-def remember(session: Session, key: str, route: str, body_digest: str, status: int, body: Any) -> None:
+def remember(session: Session, key: str, route: str, body_digest: str, *, status: int, body: Any) -> None:
     """Keep an answer for a retry; answers older than a day go. The first answer to a key stays."""
     session.execute(delete(IdempotencyRow).where(IdempotencyRow.created_at < now() - REMEMBERED))
     if idempotent(session, key, route, body_digest) is None:

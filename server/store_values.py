@@ -77,7 +77,7 @@ class StoredLabel:
 
 @dataclass(frozen=True)
 class StoredResponse:
-    """The answer that a write was given the first time."""
+    """The answer that a write was given the first time; `body` is JSON."""
 
     status: int
-    body: dict[str, Any] | list[Any] | None
+    body: Any
