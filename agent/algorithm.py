@@ -118,6 +118,8 @@ class Algorithm(Protocol):
 class AlgorithmFactory(Protocol):
     """What an entry point of the group `seed.algorithms` names."""
 
+    name: str
+    description: str
     settings: type[BaseModel]
     """Pydantic model of the algorithm's settings, each field documented."""
 

@@ -83,7 +83,7 @@ def algorithm_info(name: str, factory: AlgorithmFactory) -> AlgorithmInfo:
     """An algorithm as the wire shows it."""
     return AlgorithmInfo(
         name=name,
-        description=" ".join((factory.settings.__doc__ or "").split()),
+        description=factory.description,
         presets={preset: dict(values) for preset, values in factory.presets.items()},
         settings_schema=factory.settings.model_json_schema(),
     )

@@ -39,23 +39,19 @@ async def once(
         Conflict: the key was used with another body.
     """
     if key is None:
-        return _answer(status, (await act()).model_dump_json())
+        return JSONResponse((await act()).model_dump(mode="json"), status)
     route = f"{request.method} {request.url.path}"
     lock = _locks.setdefault(f"{route} {key}", asyncio.Lock())
     async with lock:  # the same key twice at the same moment: the second waits for the first
         digest = hashlib.sha256(_canonical(await request.body())).hexdigest()
         stored = await store.idempotent(key, route, digest)
         if stored is not None:
-            return _answer(stored.status, stored.body)
-        body = (await act()).model_dump_json()
+            return JSONResponse(stored.body, stored.status)
+        body = (await act()).model_dump(mode="json")
         await store.remember(key, route, digest, status, body)
-        return _answer(status, body)
+        return JSONResponse(body, status)
 
 
 def _canonical(body: bytes) -> bytes:
     """The same JSON in another spelling is the same body."""
     return json.dumps(json.loads(body or b"null"), sort_keys=True).encode()
-
-
-def _answer(status: int, body: str) -> JSONResponse:
-    return JSONResponse(json.loads(body), status)

@@ -97,9 +97,9 @@ class ExperimentCreate(Wire):
     algorithm: Annotated[str, Field(examples=["seed"], description="a name from GET /api/v1/algorithms")] = "seed"
     preset: Annotated[str | None, Field(examples=["paper_sim"], description="a preset of the algorithm")] = None
     settings: Annotated[
-        dict[str, Any], Field(default_factory=dict, description="the algorithm's settings that differ from the preset")
-    ]
-    adapter_settings: Annotated[dict[str, Any], Field(default_factory=dict, description="the adapter's settings")]
+        dict[str, Any], Field(description="the algorithm's settings that differ from the preset")
+    ] = {}
+    adapter_settings: Annotated[dict[str, Any], Field(description="the adapter's settings")] = {}
     seed: Seed = 0
     mode: Mode = Mode.EXECUTE_APPROVED
     aggregation: Aggregation = Aggregation.FIRST

@@ -13,6 +13,7 @@ from pathlib import Path
 from server import catalogue
 from server.errors import ServiceError
 from server.hub import Hub
+from server.publisher import Publisher
 from server.schemas import Experiment, ExperimentCreate, Lifecycle, Readiness
 from server.settings import Settings
 from server.store import Store
@@ -62,8 +63,8 @@ class Service:
 
 
 @asynccontextmanager
-async def opened(settings: Settings) -> AsyncIterator[Service]:
-    """A running service; on leaving, its workers end and its database closes.
+async def opened(settings: Settings, listener: Publisher | None = None) -> AsyncIterator[Service]:
+    """A running service; on leaving, its workers end and its database closes. `listener` hears instead of viewers.
 
     Raises:
         DataDirInUse: another process serves from this directory; two hubs on one store would run a robot twice.
@@ -72,10 +73,8 @@ async def opened(settings: Settings) -> AsyncIterator[Service]:
     with _owned(settings.data_dir):
         store = await Store.open(settings.database_url, settings.data_dir)
         try:
-            for touched in await store.recover():
-                log.warning("experiment %d was running when the service ended: it is paused now", touched)
             rooms = Rooms(queue_limit=settings.viewer_queue)
-            hub = Hub(store, settings, rooms)
+            hub = Hub(store, settings, listener or rooms)
             await hub.start()
             try:
                 yield Service(settings, store, rooms, hub)
@@ -91,7 +90,11 @@ async def create_first(service: Service) -> Experiment | None:
         return None
     if (await service.store.experiments(limit=1)).items:
         return None
-    return await service.create(FIRST_EXPERIMENT)
+    try:
+        return await service.create(FIRST_EXPERIMENT)
+    except ServiceError as error:
+        log.warning("there is no first experiment: %s. %s", error, error.remedy)
+        return None
 
 
 @contextmanager

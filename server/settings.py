@@ -62,6 +62,7 @@ class Settings(BaseSettings):
     learner_deadline: Annotated[
         float, Field(gt=0, description="seconds after which a learner worker that doesn't answer counts as hung")
     ] = 120.0
+    learner_threads: Annotated[int, Field(ge=1, le=64, description="CPU threads of one learner worker")] = 1
     checkpoint_every: Annotated[int, Field(ge=1, description="feedback between two checkpoints of the learner")] = 50
 
     @field_validator("allowed_hosts", mode="before")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from fastapi import APIRouter, Request, Response
 from fastapi.responses import FileResponse
 
@@ -12,7 +14,7 @@ from server.schemas import Proposal, ProposalPage
 
 router = APIRouter(tags=["proposals"])
 
-IMAGE = {
+IMAGE: dict[int | str, dict[str, Any]] = {
     200: {"content": {"image/jpeg": {"schema": {"type": "string", "format": "binary"}}}, "description": "The JPEG"},
     304: {"description": "The client has it already"},
 }

@@ -1,0 +1,165 @@
+"""The command line: `seed serve`, `train`, `evaluate`, `check`, `openapi`.
+
+Exit codes: 0 done, 2 wrong arguments or a machine that isn't set up for it, 3 robot, simulator or learner failed or
+can't be had, 130 interrupted.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import logging
+from pathlib import Path
+from typing import Annotated, Any, NoReturn
+
+import typer
+from pydantic import ValidationError
+from rich.console import Console
+
+from server.cli_runs import Interrupted, RunFailed, evaluate_stored, train_headless
+from server.cli_serve import run_server
+from server.errors import ServiceError
+from server.origin import check_bind
+from server.schemas import EvaluationCreate, ExperimentCreate
+from server.settings import Settings
+from server.store_errors import StoreError
+
+USAGE, FAILED, INTERRUPTED = 2, 3, 130
+
+app = typer.Typer(
+    help="Train a robot arm from a browser tab by clicking good or bad.",
+    epilog="Exit codes: 0 done; 2 wrong arguments or set-up; 3 robot, simulator or learner failed; 130 interrupted.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+_stderr = Console(stderr=True, highlight=False)
+
+DataDir = Annotated[
+    Path | None,
+    typer.Option(help="directory of the database, images and checkpoints [default: data, or SEED_DATA_DIR]"),
+]
+AsJson = Annotated[bool, typer.Option("--json", help="print one JSON object as the last line")]
+
+
+@app.command()
+def serve(
+    host: Annotated[str | None, typer.Option(help="address to listen on [default: 127.0.0.1, or SEED_HOST]")] = None,
+    port: Annotated[int | None, typer.Option(help="port; 0 takes a free one [default: 8000, or SEED_PORT]")] = None,
+    data_dir: DataDir = None,
+) -> None:
+    """Run the service and print its URL."""
+    settings = _settings(host=host, port=port, data_dir=data_dir)
+    _log(settings.log_level)
+    try:
+        check_bind(settings)
+        asyncio.run(run_server(settings, announce=typer.echo))
+    except (ServiceError, StoreError) as error:
+        _give_up(str(error), error.remedy, USAGE)
+
+
+@app.command()
+def train(  # noqa: PLR0917  Typer makes an option of each
+    task: Annotated[str, typer.Option(help="a task, e.g. stacking")] = "stacking",
+    adapter: Annotated[str, typer.Option(help="an adapter, e.g. robosuite or kinematic")] = "robosuite",
+    algorithm: Annotated[str, typer.Option(help="an algorithm")] = "seed",
+    preset: Annotated[str, typer.Option(help="a preset of the algorithm")] = "paper_sim",
+    teacher: Annotated[str, typer.Option(help="the synthetic trainer that judges")] = "synthetic",
+    feedback: Annotated[int, typer.Option(min=1, help="feedback to train with")] = 300,
+    seed: Annotated[int, typer.Option(min=0, max=2**31 - 1, help="seed of robot and learner")] = 0,
+    evaluate: Annotated[int, typer.Option(min=0, max=1000, help="rollouts of the final evaluation; 0: none")] = 10,
+    name: Annotated[str | None, typer.Option(help="name of the experiment")] = None,
+    resume: Annotated[int | None, typer.Option(min=1, help="go on with this experiment instead of a new one")] = None,
+    data_dir: DataDir = None,
+    as_json: AsJson = False,
+) -> None:
+    """Train without a browser: a teacher judges, through the same door as a person."""
+    settings = _settings(data_dir=data_dir)
+    fields: dict[str, Any] = {
+        "name": name or f"{task} by {teacher}, seed {seed}",
+        "task": task,
+        "adapter": adapter,
+        "algorithm": algorithm,
+        "preset": preset,
+        "teacher": teacher,
+        "seed": seed,
+    }
+
+    async def run() -> dict[str, Any]:
+        what = resume if resume is not None else ExperimentCreate(**fields)
+        return await train_headless(settings, what, feedback, evaluate, _stderr)
+
+    _report(run, as_json)
+
+
+@app.command()
+def evaluate(
+    experiment: Annotated[int, typer.Argument(min=1, help="id of the experiment")],
+    rollouts: Annotated[int, typer.Option(min=1, max=1000, help="rollouts of the deterministic policy")] = 10,
+    seed: Annotated[int, typer.Option(min=0, max=2**31 - 1, help="seed of the first rollout's start")] = 10_000,
+    data_dir: DataDir = None,
+    as_json: AsJson = False,
+) -> None:
+    """Roll out the deterministic policy of a stored experiment (simulated adapters only)."""
+    settings = _settings(data_dir=data_dir)
+    body = EvaluationCreate(rollouts=rollouts, seed=seed)
+    _report(lambda: evaluate_stored(settings, experiment, body, _stderr), as_json)
+
+
+@app.command()
+def openapi() -> None:
+    """Print the OpenAPI document of the service."""
+    from server.app import create_app  # noqa: PLC0415  building the app takes a moment that `--help` shouldn't
+
+    typer.echo(json.dumps(create_app(Settings()).openapi(), indent=2))
+
+
+def _report(run: Any, as_json: bool) -> None:
+    """Run a long command, then print what came out of it; every foreseen end has its exit code."""
+    _log("warning")
+    try:
+        summary = asyncio.run(run())
+    except ValidationError as error:
+        _give_up(_first(error), "see seed train --help", USAGE)
+    except RunFailed as error:
+        _give_up(str(error), error.remedy, FAILED)
+    except Interrupted as error:
+        _give_up(str(error), error.remedy, INTERRUPTED)
+    except (ServiceError, StoreError) as error:
+        _give_up(str(error), error.remedy, USAGE)
+    else:
+        if as_json:
+            typer.echo(json.dumps(summary))
+        else:
+            for key, value in summary.items():
+                typer.echo(f"{key.replace('_', ' '):>16}  {value}")
+
+
+def _settings(**options: Any) -> Settings:
+    try:
+        return Settings(**{key: value for key, value in options.items() if value is not None})
+    except ValidationError as error:
+        field = ".".join(map(str, error.errors()[0]["loc"]))
+        _give_up(
+            f"the setting {_first(error)}",
+            f"correct --{field.replace('_', '-')} or SEED_{field.upper()}; docs/settings.md lists all",
+            USAGE,
+        )
+
+
+def _log(level: str) -> None:
+    logging.basicConfig(level=level.upper(), format="%(levelname)s %(name)s: %(message)s")
+    if level != "debug":
+        for chatty in ("alembic", "uvicorn"):
+            logging.getLogger(chatty).setLevel("WARNING")
+
+
+def _first(error: ValidationError) -> str:
+    first = error.errors()[0]
+    return f"{'.'.join(map(str, first['loc']))}: {first['msg']}"
+
+
+def _give_up(message: str, remedy: str, code: int) -> NoReturn:
+    _stderr.print(f"[bold red]error:[/] {message}", soft_wrap=True)
+    _stderr.print(f"[bold]remedy:[/] {remedy}", soft_wrap=True)
+    raise typer.Exit(code)

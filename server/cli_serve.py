@@ -1,0 +1,110 @@
+"""`seed serve`: take the port, open the service, answer until a signal says stop."""
+
+from __future__ import annotations
+
+import asyncio
+import errno
+import signal
+import socket
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+import uvicorn
+
+from server.app import create_app
+from server.errors import ServiceError
+from server.service import opened
+from server.settings import Settings
+
+LARGEST_MESSAGE = 64 * 1024
+"""Bytes of a WebSocket message; a larger one closes the connection with 1009. Ours are below 300."""
+GRACE = 3
+"""Seconds that requests which are still being answered get when the service ends."""
+
+
+async def run_server(settings: Settings, *, announce: Callable[[str], None]) -> None:
+    """Serve until SIGINT or SIGTERM. The port is taken first: a second start fails before it touches the database.
+
+    Raises:
+        ServiceError: the port or the data directory can't be had. StoreError: the database can't be used.
+    """
+    listener = _listen(settings.host, settings.port)
+    with listener:
+        async with opened(settings) as service:
+            server = Server(config(create_app(settings, service), settings))
+            server.on_ready = lambda: announce(f"SEED is ready: {_url(settings.host, listener.getsockname()[1])}")
+            await server.serve(sockets=[listener])
+
+
+def config(app: object, settings: Settings) -> uvicorn.Config:
+    """How uvicorn runs the app; tests run it the same way."""
+    return uvicorn.Config(
+        app,  # type: ignore[arg-type]  # uvicorn's own ASGI types and Starlette's differ in name only
+        lifespan="on",
+        log_config=None,
+        access_log=settings.log_level == "debug",
+        ws="websockets-sansio",
+        ws_max_size=LARGEST_MESSAGE,
+        ws_per_message_deflate=False,  # JPEGs don't shrink, and small events cost more than they save
+        ws_ping_interval=settings.ping_interval,
+        ws_ping_timeout=settings.ping_interval,
+        timeout_graceful_shutdown=GRACE,
+        server_header=False,
+    )
+
+
+class Server(uvicorn.Server):
+    """Uvicorn, but a signal ends it in order: the original raises it again, which would kill us before clean-up."""
+
+    on_ready: Callable[[], None] = staticmethod(lambda: None)
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        """Start to listen, then say so."""
+        await super().startup(sockets)
+        if self.started:
+            self.on_ready()
+
+    @contextmanager
+    def capture_signals(self) -> Iterator[None]:
+        """Handle SIGINT and SIGTERM while serving; a second one cuts the grace short."""
+        loop = asyncio.get_running_loop()
+        caught = (signal.SIGINT, signal.SIGTERM)
+        for number in caught:
+            loop.add_signal_handler(number, self.handle_exit, number, None)
+        try:
+            yield
+        finally:
+            for number in caught:
+                loop.remove_signal_handler(number)
+
+
+def _listen(host: str, port: int) -> socket.socket:
+    try:
+        family, kind, protocol, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
+    except socket.gaierror as error:
+        raise ServiceError(
+            503, f"there is no address {host!r} to listen on: {error.strerror}", remedy="use --host 127.0.0.1"
+        ) from error
+    listener = socket.socket(family, kind, protocol)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listener.bind(address)
+        listener.listen()
+    except OSError as error:
+        listener.close()
+        if error.errno == errno.EADDRINUSE:
+            message = f"port {port} of {host} is in use"
+            remedy = (
+                f"open http://{host}:{port} if SEED runs there already, or choose another: seed serve --port {port + 1}"
+            )
+        elif error.errno == errno.EACCES:
+            message, remedy = f"port {port} needs privileges", "choose one above 1023: seed serve --port 8000"
+        else:
+            message, remedy = f"can't listen on {host}:{port}: {error.strerror}", "use --host 127.0.0.1 --port 8000"
+        raise ServiceError(503, message, remedy=remedy) from error
+    return listener
+
+
+def _url(host: str, port: int) -> str:
+    shown = "127.0.0.1" if host in ("0.0.0.0", "::") else host
+    return f"http://[{shown}]:{port}" if ":" in shown else f"http://{shown}:{port}"
