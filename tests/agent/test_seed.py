@@ -101,6 +101,17 @@ def test_the_critic_predicts_what_was_said() -> None:
         assert learner._networks.predict(*inputs).mean().item() == pytest.approx(expected, abs=0.2)
 
 
+def test_each_loss_trains_its_own_networks_only() -> None:
+    """However the actors and temperatures are driven, the critic is the same regression on the same labels."""
+    calm, wild = seed(skill_entropy=0.0), seed(skill_entropy=1.0, parameter_entropy=0.5, initial_temperature=10.0)
+    for learner in (calm, wild):
+        learner.add(labels(30))
+        work_off(learner)
+    pairs = list(zip(calm._networks.named_parameters(), wild._networks.named_parameters(), strict=True))
+    same = {name for (name, ours), (_, theirs) in pairs if torch.equal(ours, theirs)}
+    assert same == {name for (name, _), _ in pairs if name.startswith("critics.")}
+
+
 # --- it repeats exactly
 
 
