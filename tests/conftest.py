@@ -1,0 +1,65 @@
+"""Fixtures for tests through the outermost door: the real service as a process, and Chromium."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.live import LiveService
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Browser tests come last: while Playwright's loop runs in the main thread, no asyncio test can."""
+    items.sort(key=lambda item: "/e2e/" in item.path.as_posix())
+
+
+@pytest.fixture(scope="module")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveService]:
+    """A running service without experiments; a test may kill and restart it."""
+    live = LiveService(tmp_path_factory.mktemp("service") / "data")
+    try:
+        live.start()
+        yield live
+        live.stop()
+    finally:
+        live.sweep()
+        live.http.close()
+
+
+@pytest.fixture
+def own_service(tmp_path: Path) -> Iterator[LiveService]:
+    """A running service that no other test sees."""
+    live = LiveService(tmp_path / "data")
+    try:
+        live.start()
+        yield live
+    finally:
+        live.sweep()
+        live.http.close()
+
+
+@pytest.fixture(scope="session")
+def browser_type_launch_args() -> dict[str, Any]:
+    """Debian's Chromium; a browser that Playwright would download isn't needed."""
+    chromium = shutil.which("chromium")
+    assert chromium, "Chromium is missing: `make test` installs it, or: apt-get install chromium"
+    return {
+        "executable_path": chromium,
+        "args": [
+            "--no-sandbox",  # containers and CI run as root
+            "--disable-dev-shm-usage",
+            "--disable-background-networking",
+            "--disable-component-update",
+            "--disable-sync",
+        ],
+    }
+
+
+@pytest.fixture(scope="session")
+def browser_context_args() -> dict[str, Any]:
+    """A desktop window; tests of the phone set their own size."""
+    return {"viewport": {"width": 1280, "height": 800}, "reduced_motion": "reduce"}

@@ -1,0 +1,139 @@
+"""The real service as a process of its own, to be talked to, killed and started again; and waiting for conditions."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import socket
+import sqlite3
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+import httpx
+
+T = TypeVar("T")
+
+ROOT = Path(__file__).resolve().parent.parent
+PLUGINS = ROOT / "tests" / "plugins"
+START_TIMEOUT = 60.0
+"""Seconds; a loaded two-core machine imports slowly."""
+
+
+def wait_for(condition: Callable[[], T | None], what: str, timeout: float = 30.0) -> T:
+    """The first true value of `condition`.
+
+    Raises:
+        AssertionError: it stayed false for `timeout` seconds.
+    """
+    deadline = time.monotonic() + timeout
+    while time.monotonic() < deadline:
+        value = condition()
+        if value:
+            return value
+        time.sleep(0.02)
+    raise AssertionError(f"waited {timeout:.0f} s for {what}")
+
+
+def free_port() -> int:
+    """A port that nobody listens on now."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+class LiveService:
+    """`seed serve` on a port and data directory that stay the same when it is started again."""
+
+    def __init__(self, data_dir: Path, **settings: str) -> None:
+        self.port = free_port()
+        self.url = f"http://127.0.0.1:{self.port}"
+        self.data_dir = data_dir
+        self.http = httpx.Client(base_url=self.url, timeout=30.0)
+        self._log = data_dir.parent / f"{data_dir.name}.log"
+        self._process: subprocess.Popen[bytes] | None = None
+        self._environment = os.environ | {
+            "PYTHONPATH": os.pathsep.join(filter(None, [str(PLUGINS), os.environ.get("PYTHONPATH")])),
+            "SEED_HOST": "127.0.0.1",
+            "SEED_PORT": str(self.port),
+            "SEED_DATA_DIR": str(data_dir),
+            "SEED_CREATE_FIRST_EXPERIMENT": "false",
+            # Workers share two cores with a browser here.
+            "OMP_NUM_THREADS": "1",
+            **settings,
+        }
+
+    def start(self) -> None:
+        """Start it and wait until it is ready."""
+        with self._log.open("ab") as log:
+            self._process = subprocess.Popen(
+                [sys.executable, "-c", "from server.cli import app; app()", "serve"],
+                cwd=self.data_dir.parent,
+                env=self._environment,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+            )
+        wait_for(self._ready, "the service to start", START_TIMEOUT)
+
+    def _ready(self) -> bool:
+        assert self._process is not None
+        if self._process.poll() is not None:
+            raise AssertionError(f"the service ended with {self._process.returncode}:\n{self.log()}")
+        with contextlib.suppress(httpx.TransportError):
+            return self.http.get("/ready").status_code == httpx.codes.OK
+        return False
+
+    def kill(self) -> None:
+        """SIGKILL the server process alone, as a power cut would; its workers have to notice by themselves."""
+        assert self._process is not None
+        self._process.send_signal(signal.SIGKILL)
+        self._process.wait()
+
+    def stop(self) -> int:
+        """Ask it to end; its exit code. Whatever is left of it afterwards is killed."""
+        assert self._process is not None
+        self._process.terminate()
+        try:
+            return self._process.wait(timeout=30)
+        finally:
+            self.sweep()
+
+    def sweep(self) -> None:
+        """Kill whatever is left in the service's session."""
+        if self._process is not None:
+            with contextlib.suppress(ProcessLookupError, PermissionError):
+                os.killpg(self._process.pid, signal.SIGKILL)
+            self._process.wait()
+
+    def log(self) -> str:
+        """What it printed so far."""
+        return self._log.read_text("utf-8", "replace") if self._log.exists() else ""
+
+    def post(self, path: str, body: dict[str, Any] | None = None) -> dict[str, Any]:
+        """POST below /api/v1 and expect success."""
+        answer = self.http.post(f"/api/v1{path}", json=body)
+        assert answer.is_success, f"POST {path}: {answer.status_code} {answer.text}"
+        return dict(answer.json())
+
+    def get(self, path: str) -> dict[str, Any]:
+        """GET below /api/v1 and expect success."""
+        answer = self.http.get(f"/api/v1{path}")
+        assert answer.is_success, f"GET {path}: {answer.status_code} {answer.text}"
+        return dict(answer.json())
+
+    def experiment(self, **fields: Any) -> int:
+        """Create a Stacking experiment of the scripted algorithm; its id."""
+        body = {"name": "Stack two blocks", "task": "stacking", "adapter": "robosuite", "algorithm": "scripted"}
+        return int(self.post("/experiments", body | fields)["id"])
+
+    def rows(self, query: str, *values: object) -> list[sqlite3.Row]:
+        """Rows of the SQLite database, read beside the running service."""
+        (database,) = self.data_dir.glob("*.db") or self.data_dir.glob("*.sqlite*")
+        with contextlib.closing(sqlite3.connect(f"file:{database}?mode=ro", uri=True)) as connection:
+            connection.row_factory = sqlite3.Row
+            return connection.execute(query, values).fetchall()
