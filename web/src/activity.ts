@@ -11,7 +11,8 @@ const busy = (text: string): Activity => ({ tone: "busy", text });
 
 export function activity(state: TrainerState): Activity {
   const { experiment } = state;
-  if (!experiment) return busy("Loading");
+  if (!experiment)
+    return busy(state.connection === "lost" ? "The service doesn't answer. Trying again." : "Loading");
   if (experiment.halted) return { tone: "stopped", text: "Emergency stop. Nothing moves until you re-arm." };
   switch (experiment.lifecycle) {
     case "created":

@@ -78,7 +78,7 @@ export interface Catalogue {
   tasks: TaskInfo[];
   adapters: AdapterInfo[];
   algorithms: AlgorithmInfo[];
-  teachers: { name: string }[];
+  teachers: string[];
 }
 
 export const adapterList = () => list<AdapterInfo>("/adapters");
@@ -88,7 +88,7 @@ export async function catalogue(): Promise<Catalogue> {
     list<TaskInfo>("/tasks"),
     adapterList(),
     list<AlgorithmInfo>("/algorithms"),
-    list<{ name: string }>("/teachers"),
+    list<string>("/teachers"),
   ]);
   return { tasks, adapters, algorithms, teachers };
 }

@@ -93,7 +93,7 @@ export function reduce(state: TrainerState, action: Action): TrainerState {
     case "pending":
       return { ...state, pending: action.clicks };
     case "experiment":
-      return withExperiment(state, action.experiment);
+      return isNews(state, action.experiment) ? withExperiment(state, action.experiment) : state;
     case "metrics":
       return { ...state, curve: action.points.reduce(addMetric, state.curve) };
     case "evaluation":
@@ -109,6 +109,11 @@ export function reduce(state: TrainerState, action: Action): TrainerState {
     case "fatal":
       return { ...state, fatal: action.problem };
   }
+}
+
+/** An answer by REST may be overtaken by the stream, which also knows the phase: it counts only where it is newer. */
+function isNews(state: TrainerState, experiment: Experiment): boolean {
+  return !state.experiment || Date.parse(experiment.updated_at) > Date.parse(state.experiment.updated_at);
 }
 
 function onEvent(state: TrainerState, event: StreamEvent): TrainerState {

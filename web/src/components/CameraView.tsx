@@ -13,6 +13,8 @@ export interface CameraViewProps {
   overlay: boolean;
   judged: boolean;
   live: number | null;
+  /** Whether the robot moves; after it the last picture of the video stays until there is a new still. */
+  moving: boolean;
   frames: FrameSink;
 }
 
@@ -70,8 +72,8 @@ export function CameraView(props: CameraViewProps) {
       )}
       {props.skill && <span className="chip skill">{props.skill}</span>}
       <span className="chip camera">
-        {live !== null && <span className="dot" />}
-        {live !== null ? `${name} · live` : name}
+        {props.moving && <span className="dot" />}
+        {props.moving ? `${name} · live` : name}
       </span>
       {props.overlay && !view.overlay.in_view && <span className="chip note">outside this picture</span>}
     </figure>

@@ -57,11 +57,7 @@ function noRepeat(event: ReactKeyboardEvent): void {
 export function JudgeBar(props: JudgeBarProps) {
   useJudgeKeys(props);
   return (
-    <fieldset
-      className="judge"
-      aria-label="Judge this proposal"
-      data-idle={!props.ready && props.chosen === null}
-    >
+    <fieldset className="judge" aria-label="Judge this proposal" data-idle={!props.ready}>
       {CHOICES.map(({ value, name, testId, arrow, number, key, Icon }) => (
         <button
           key={testId}

@@ -1,9 +1,9 @@
 import { useEffect } from "react";
 import type { Notice } from "../state";
 
-const READ_MS = 6000;
+const READ_MS = { info: 6000, good: 6000, warning: 12_000 };
 
-/** Short news in a corner; errors and warnings stay until they are dismissed. */
+/** Short news in a corner; errors stay until they are dismissed. */
 export function Notices({ notices, onDismiss }: { notices: Notice[]; onDismiss: (id: number) => void }) {
   return (
     <section className="notices" aria-live="polite" aria-label="News" data-testid="notices">
@@ -15,12 +15,11 @@ export function Notices({ notices, onDismiss }: { notices: Notice[]; onDismiss: 
 }
 
 function Toast({ notice, onDismiss }: { notice: Notice; onDismiss: (id: number) => void }) {
-  const passing = notice.tone === "info" || notice.tone === "good";
   useEffect(() => {
-    if (!passing) return;
-    const timer = setTimeout(() => onDismiss(notice.id), READ_MS);
+    if (notice.tone === "error") return;
+    const timer = setTimeout(() => onDismiss(notice.id), READ_MS[notice.tone]);
     return () => clearTimeout(timer);
-  }, [passing, notice.id, onDismiss]);
+  }, [notice.tone, notice.id, onDismiss]);
   return (
     <div className="notice" data-tone={notice.tone}>
       <p>{notice.text}</p>

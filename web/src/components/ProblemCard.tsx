@@ -6,7 +6,7 @@ import { Header } from "./Header";
 export function ProblemCard({ problem }: { problem: Problem }) {
   return (
     <>
-      <Header />
+      <Header back />
       <main className="page narrow">
         <div className="empty" role="alert">
           <h1>{problem.title}</h1>

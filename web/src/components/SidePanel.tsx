@@ -1,11 +1,10 @@
-// What stands beside the views: counters, what the agent thinks, mode, chart, evaluation.
+// What stands beside the views: counters, what the agent thinks, mode, evaluation.
 import { useEffect, useState } from "react";
 import * as http from "../http";
 import type { Session } from "../session";
 import type { TrainerState } from "../state";
 import type { Experiment, Mode, Proposal } from "../wire";
 import { Counters } from "./Counters";
-import { Curve } from "./Curve";
 import type { Question } from "./Dialog";
 import { EvaluationPanel } from "./Evaluation";
 import { ModeSwitch } from "./ModeSwitch";
@@ -63,7 +62,6 @@ export function SidePanel({ state, experiment, proposal, session, onAsk }: SideP
       <Counters counters={experiment.counters} />
       <Thought proposal={proposal} />
       <ModeSwitch mode={experiment.mode} onChange={changeMode} />
-      <Curve curve={state.curve} />
       {simulated && (
         <EvaluationPanel
           evaluation={state.evaluation}

@@ -31,6 +31,7 @@ export interface ViewsProps {
   failed: boolean;
   overlay: boolean;
   live: number | null;
+  moving: boolean;
   skill: string | null;
   empty: string;
 }
@@ -62,6 +63,7 @@ export function Views(props: ViewsProps) {
           overlay={overlay}
           judged={Boolean(drawn.closed_at)}
           live={live}
+          moving={props.moving}
           frames={props.frames}
         />
       ))}

@@ -3,6 +3,7 @@ import { useEffect, useMemo, useState } from "react";
 import { activity } from "../activity";
 import { ActivityLine } from "../components/ActivityLine";
 import { ConnectionState } from "../components/ConnectionState";
+import { Curve } from "../components/Curve";
 import { Confirm, type Question } from "../components/Dialog";
 import { HaltBanner } from "../components/HaltBanner";
 import { Header } from "../components/Header";
@@ -32,6 +33,7 @@ export function TrainerPage({ id }: { id: number }) {
   const drawnId = overlay && !drawn.closed_at ? drawn.id : null;
   const clock = useDrawnAt(drawnId);
   const ready = judgeable(state, drawnId);
+  const judging = experiment?.lifecycle === "running" && !experiment.halted;
 
   useEffect(() => {
     if (experiment) document.title = `${experiment.name} · SEED`;
@@ -47,7 +49,7 @@ export function TrainerPage({ id }: { id: number }) {
   const now = activity(state);
   return (
     <>
-      <Header stop>
+      <Header back stop>
         <ConnectionState connection={state.connection} pending={state.pending.length} />
       </Header>
       <StopButton stopping={state.stopping !== "no"} onStop={() => session.halt()} />
@@ -63,6 +65,7 @@ export function TrainerPage({ id }: { id: number }) {
               failed={failed}
               overlay={overlay}
               live={live}
+              moving={state.execution !== null}
               skill={state.execution?.skill ?? (overlay ? drawn.skill : null)}
               empty={
                 experiment?.lifecycle === "created" ? "Start, and the first proposal shows here." : now.text
@@ -77,12 +80,13 @@ export function TrainerPage({ id }: { id: number }) {
               />
               <JudgeBar
                 ready={ready}
-                chosen={proposal && current ? chosenFor(state, proposal.id) : null}
+                chosen={proposal && current && judging ? chosenFor(state, proposal.id) : null}
                 canUndo={undoable !== null}
                 onJudge={judge}
                 onUndo={() => undoable && session.undo(undoable.id)}
               />
             </div>
+            <Curve curve={state.curve} />
           </div>
           {experiment && (
             <SidePanel

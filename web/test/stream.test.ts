@@ -1,0 +1,100 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { type Connection, Stream } from "../src/stream";
+import { snapshot } from "./messages";
+
+/** The browser's socket with its wires exposed. */
+class Socket {
+  static readonly OPEN = 1;
+  static readonly CONNECTING = 0;
+  static made: Socket[] = [];
+  readyState = Socket.CONNECTING;
+  binaryType = "";
+  sent: string[] = [];
+  onmessage: ((message: { data: string | ArrayBuffer }) => void) | null = null;
+  onclose: (() => void) | null = null;
+  constructor(readonly url: string) {
+    Socket.made.push(this);
+  }
+  send(text: string): void {
+    this.sent.push(text);
+  }
+  close(): void {
+    this.readyState = 3;
+    this.onclose?.();
+  }
+  accept(): void {
+    this.readyState = Socket.OPEN;
+    this.onmessage?.({ data: JSON.stringify(snapshot()) });
+  }
+  static newest(): Socket {
+    const socket = Socket.made.at(-1);
+    if (!socket) throw new Error("no socket was made");
+    return socket;
+  }
+}
+
+describe("stream", () => {
+  let states: Connection[];
+  let stream: Stream;
+
+  beforeEach(() => {
+    vi.useFakeTimers();
+    vi.stubGlobal("WebSocket", Socket);
+    Socket.made = [];
+    states = [];
+    stream = new Stream("ws://service/stream", {
+      onEvent: () => undefined,
+      onFrame: async () => undefined,
+      onConnection: (connection) => states.push(connection),
+    });
+    stream.start();
+  });
+  afterEach(() => {
+    stream.stop();
+    vi.unstubAllGlobals();
+    vi.useRealTimers();
+  });
+
+  it("is open only once a snapshot came", () => {
+    expect(states).toEqual(["connecting"]);
+    Socket.newest().accept();
+    expect(states.at(-1)).toBe("open");
+  });
+
+  it("comes back by itself, waiting longer each time", () => {
+    Socket.newest().close();
+    expect(states.at(-1)).toBe("lost");
+    vi.advanceTimersByTime(400);
+    expect(Socket.made.length).toBe(2);
+    Socket.newest().close();
+    vi.advanceTimersByTime(300);
+    expect(Socket.made.length).toBe(2);
+    vi.advanceTimersByTime(400);
+    expect(Socket.made.length).toBe(3);
+  });
+
+  it("tries at once when the device is online again", () => {
+    Socket.newest().close();
+    window.dispatchEvent(new Event("online"));
+    expect(Socket.made.length).toBe(2);
+  });
+
+  it("gives up on a silent connection", () => {
+    Socket.newest().accept();
+    vi.advanceTimersByTime(15_000);
+    expect(Socket.made.length).toBeGreaterThan(1);
+  });
+
+  it("acknowledges every frame, also a damaged one", async () => {
+    const socket = Socket.newest();
+    socket.accept();
+    socket.onmessage?.({ data: new ArrayBuffer(2) });
+    expect(socket.sent).toEqual(['{"type":"frame_ack"}']);
+  });
+
+  it("says when a message can't leave", () => {
+    expect(stream.send({ type: "ping" })).toBe(false);
+    Socket.newest().accept();
+    expect(stream.send({ type: "ping" })).toBe(true);
+  });
+});
