@@ -15,10 +15,10 @@ from robot_adapters.base import Array, EndReason, SkillCall, SkillSpec, StepHook
 from robot_adapters.projection import closing_direction, push_vector
 
 STEP_CAP = 0.10  # m from the present pose to a set-point; measured: 0.6 m/s at most under kp 150
-OFF_LINE = 0.02  # m aside of the line at which the arm waits until it is back on it: a fast descent drags it aside
+OFF_LINE = 0.012  # m aside of the line at which the arm waits until it is back on it: a fast descent drags it aside
 YAW_CAP = 0.5  # rad, likewise
 TRANSIT_TOLERANCE = 0.03  # m; a waypoint that is only passed. Measured
-FINE_TOLERANCE = 0.0045  # m; a waypoint where the fingers act. Measured
+FINE_TOLERANCE = 0.003  # m; a waypoint where the fingers act. Measured
 YAW_TOLERANCE = 0.05  # rad, before a descent
 SEGMENT_LIMIT = 120  # set-points to one waypoint (6 s at 20 Hz)
 STALL_STEPS = 10  # set-points without progress before the skill gives up

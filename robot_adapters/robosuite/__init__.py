@@ -16,6 +16,9 @@ class RobosuiteSettings(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     jpeg_quality: int = Field(90, ge=30, le=100, description="JPEG quality of the images that trainers judge.")
+    speed: float = Field(
+        0.0, ge=0.0, le=20.0, description="Simulated seconds a second, for watching; 0 is as fast as it goes."
+    )
     live_jpeg_quality: int = Field(70, ge=30, le=100, description="JPEG quality of the live video while a skill runs.")
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 import uuid
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -82,6 +82,8 @@ class RobosuiteAdapter:
         """
         spec = check_call(call, self._task.skills)
         self._observation = None
+        if self._settings.speed > 0:
+            on_step = paced(on_step, 1.0 / (self.info.control_hz * self._settings.speed))
         end, steps = run_skill(
             self.simulator, call, spec, should_stop=should_stop, on_step=on_step, yaw=self._yaw(call, spec)
         )
@@ -126,3 +128,24 @@ class RobosuiteAdapter:
         # what lies nearest the target is what is picked, the others are in the way
         nearest = min(range(len(objects)), key=lambda i: float(np.linalg.norm(objects[i] - target)))
         return clear_yaw(target, objects[:nearest] + objects[nearest + 1 :])
+
+
+def paced(
+    on_step: StepHook,
+    period: float,
+    *,
+    clock: Callable[[], float] = time.monotonic,
+    sleep: Callable[[float], None] = time.sleep,
+) -> StepHook:
+    """`on_step`, then a wait until `period` seconds after the last call was due; lost time isn't caught up."""
+    due = clock() + period
+
+    def wait() -> None:
+        nonlocal due
+        on_step()
+        now = clock()
+        if now < due:
+            sleep(due - now)
+        due = max(due, now) + period
+
+    return wait

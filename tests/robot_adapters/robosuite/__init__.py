@@ -1,0 +1,1 @@
+"""Tests of the robosuite adapter, in physics and with real pictures."""

@@ -1,0 +1,91 @@
+"""The calibration agrees with the pictures to two pixels, and the pictures show what a trainer needs."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import mujoco
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PIL import Image
+
+from robot_adapters.base import SkillCall
+from robot_adapters.projection import project
+from robot_adapters.registry import task
+from robot_adapters.robosuite.adapter import RobosuiteAdapter
+
+STACKING = task("stacking")
+CAMERAS = ("left", "right")
+SHOWN, HIDDEN = 1, 5  # geom groups: what is drawn, and what is not
+
+
+@contextmanager
+def alone(model: mujoco.MjModel, geom: int) -> Iterator[None]:
+    """Only this geom is drawn: another block or the arm would hide a part of it and move its centroid."""
+    groups = model.geom_group.copy()
+    model.geom_group[:] = HIDDEN
+    model.geom_group[geom] = SHOWN
+    yield
+    model.geom_group[:] = groups
+
+
+def centroid(mask: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """(2,) u, v of the mask's middle; a pixel's centre is half a pixel from its corner."""
+    v, u = np.nonzero(mask)
+    return np.array([u.mean(), v.mean()]) + 0.5
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("camera", CAMERAS)
+def test_a_block_s_centre_projects_onto_its_pixels(stacking: RobosuiteAdapter, camera: str, seed: int) -> None:
+    state = stacking.reset(seed).state
+    for block, position in (("block_a", state[:3]), ("block_b", state[3:])):
+        geom = stacking.simulator.model.geom(f"{block}_g0_vis").id
+        with alone(stacking.simulator.model, geom):
+            mask = stacking.cameras.geoms(camera) == geom
+        assert mask.sum() > 200
+        dot = stacking.overlays(SkillCall("pick", tuple(position)))[camera].dot
+        assert dot is not None
+        assert np.linalg.norm(np.array(dot) - centroid(mask)) < 2.0
+
+
+@pytest.mark.parametrize("camera", CAMERAS)
+def test_the_whole_workspace_is_in_view(stacking: RobosuiteAdapter, camera: str) -> None:
+    low, high = STACKING.skills[0].low, STACKING.skills[0].high
+    for corner in np.array(np.meshgrid(*zip(low, high, strict=True))).reshape(3, -1).T:
+        assert stacking.overlays(SkillCall("pick", tuple(corner)))[camera].in_view
+
+
+@pytest.mark.parametrize("camera", CAMERAS)
+def test_both_blocks_can_be_seen_in_the_observation(stacking: RobosuiteAdapter, camera: str) -> None:
+    frame = stacking.reset(0).frames[camera]
+    pixels = np.asarray(Image.open(io.BytesIO(frame.jpeg)).convert("RGB"), dtype=np.int64)
+    red, green, blue = pixels[..., 0], pixels[..., 1], pixels[..., 2]
+    assert ((red > 120) & (green < 70) & (blue < 70)).sum() > 150
+    assert ((green > 60) & (red < 60) & (blue < 70)).sum() > 150
+
+
+@pytest.mark.parametrize("camera", CAMERAS)
+def test_the_area_of_reaching_can_be_seen_and_touches_nothing(reaching: RobosuiteAdapter, camera: str) -> None:
+    pixels = np.asarray(Image.open(io.BytesIO(reaching.reset(0).frames[camera].jpeg)).convert("RGB"), dtype=np.int64)
+    assert ((pixels[..., 2] - pixels[..., 0]) > 80).sum() > 1000
+    model = reaching.simulator.model
+    assert "target" not in {model.geom(i).name for i in range(model.ngeom)}
+
+
+@pytest.mark.parametrize("seed", [0, 1])  # the fingers stay straight in 0; in 1 they turn away from the other block
+@pytest.mark.parametrize("camera", CAMERAS)
+def test_the_bar_shows_the_angle_that_the_fingers_take(stacking: RobosuiteAdapter, camera: str, seed: int) -> None:
+    call = STACKING.true_call(stacking.reset(seed).state)
+    drawn = stacking.overlays(call)[camera]
+    assert drawn.bar is not None
+    stacking.execute(call, should_stop=lambda: False, on_step=lambda: None)
+    assert (abs(stacking.simulator.pose()[1]) > 1) == (seed == 1)
+    pads = [stacking.simulator.data.geom(f"gripper0_right_finger{i}_pad_collision").xpos for i in (1, 2)]
+    axis = (pads[0] - pads[1]) / np.linalg.norm(pads[0] - pads[1]) * 0.04
+    ends, _ = project(stacking.cameras.calibration(camera), np.array(call.parameters) + np.stack([axis, -axis]))
+    swapped = np.linalg.norm(ends - drawn.bar, axis=1).max() > np.linalg.norm(ends[::-1] - drawn.bar, axis=1).max()
+    assert (ends[::-1] if swapped else ends) == pytest.approx(np.array(drawn.bar), abs=2.0)
