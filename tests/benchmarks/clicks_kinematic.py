@@ -1,7 +1,7 @@
 """Feedback that SEED's `paper_sim` preset needs until 90 % of its deterministic rollouts succeed, without physics.
 
 Learner, kinematic adapter and the task's own judge in one process, five seeds; Stacking is the figure, Reaching is
-printed beside it. A seed stops at the budget: `BENCH_FEEDBACK` labels (default 600, which keeps all seeds of both tasks
+printed beside it. A seed stops at the budget: `BENCH_FEEDBACK` labels (default 500, which keeps all seeds of both tasks
 under about four minutes on one core). A seed that did not get there counts as the budget, and is told as "not within".
 """
 
@@ -25,7 +25,7 @@ EVERY = 50
 """Feedback between two evaluations."""
 ROLLOUTS = 20
 REACHED = 0.9
-DEFAULT_BUDGET = 600
+DEFAULT_BUDGET = 500
 
 
 def run() -> Result:
