@@ -6,7 +6,7 @@ import { newId } from "./ids";
 import { type Click, Outbox } from "./outbox";
 import { type Action, initial, reduce, type TrainerState } from "./state";
 import { type Connection, Stream } from "./stream";
-import type { StreamEvent, Value, Verb } from "./wire";
+import type { Experiment, StreamEvent, Value, Verb } from "./wire";
 
 const RESEND_MS = 3000;
 const STOP_RETRY_MS = 1000;
@@ -115,16 +115,21 @@ export class Session {
     if (!this.stopWanted) return;
     this.stream.send({ type: "halt", request_id: newId() });
     http.act(this.id, "halt").then(
-      (experiment) => {
-        this.stopWanted = false;
-        this.dispatch({ kind: "experiment", experiment });
-      },
-      () => {
-        if (!this.stopWanted) return;
-        this.dispatch({ kind: "stopping", stopping: "unreachable" });
-        this.stopRetry = setTimeout(() => this.tryHalt(), STOP_RETRY_MS);
-      },
+      (experiment) => this.onHaltAnswer(experiment),
+      () =>
+        http.experiment(this.id).then(
+          (experiment) => this.onHaltAnswer(experiment),
+          () => this.onHaltAnswer(null),
+        ),
     );
+  }
+
+  private onHaltAnswer(experiment: Experiment | null): void {
+    if (experiment) this.dispatch({ kind: "experiment", experiment });
+    if (experiment?.halted) this.stopWanted = false;
+    if (!this.stopWanted) return;
+    this.dispatch({ kind: "stopping", stopping: "unreachable" });
+    this.stopRetry = setTimeout(() => this.tryHalt(), STOP_RETRY_MS);
   }
 
   private send(click: Click): void {

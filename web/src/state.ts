@@ -216,9 +216,9 @@ function onWorker(state: TrainerState, worker: string, status: string, detail: s
 
 function onAcknowledged(state: TrainerState, requestId: string, feedback: Feedback | null): TrainerState {
   const pending = without(state.pending, requestId);
-  const judged = feedback
-    ? { proposalId: feedback.proposal_id, value: feedback.value as Value }
-    : state.judged;
+  // The answer to an undo carries the undone click: that proposal is to be judged again.
+  const click = feedback?.click_id === requestId ? feedback : null;
+  const judged = click ? { proposalId: click.proposal_id, value: click.value as Value } : state.judged;
   const next = { ...state, pending, judged };
   if (feedback?.status !== "late") return next;
   return withNotice(next, "warning", `Your “${wordFor(feedback.value)}” came too late: not counted.`);

@@ -6,8 +6,8 @@ export type Connection = "connecting" | "open" | "lost";
 
 const FIRST_WAIT_MS = 250;
 const LONGEST_WAIT_MS = 8000;
-const PING_MS = 4000;
-const SILENCE_MS = 10_000;
+const PING_MS = 3000;
+const SILENCE_MS = 5000;
 
 export interface StreamHandlers {
   onEvent: (event: StreamEvent) => void;
@@ -20,7 +20,8 @@ export class Stream {
   private wait = FIRST_WAIT_MS;
   private retry: ReturnType<typeof setTimeout> | undefined;
   private heartbeat: ReturnType<typeof setInterval> | undefined;
-  private heardAt = 0;
+  /** Since when an answer is owed: a hidden tab's timers sleep, so silence alone proves nothing. */
+  private owedSince: number | null = null;
   private closed = false;
 
   constructor(
@@ -60,14 +61,14 @@ export class Stream {
     const socket = new WebSocket(this.url);
     socket.binaryType = "arraybuffer";
     this.socket = socket;
-    this.heardAt = Date.now();
+    this.owedSince = Date.now();
     socket.onmessage = (message) => this.receive(socket, message.data);
     socket.onclose = () => this.lost(socket);
   }
 
   private receive(socket: WebSocket, data: string | ArrayBuffer): void {
     if (socket !== this.socket) return;
-    this.heardAt = Date.now();
+    this.owedSince = null;
     if (typeof data !== "string") {
       const frame = parseFrame(data);
       const done = () => this.send({ type: "frame_ack" });
@@ -115,7 +116,7 @@ export class Stream {
   private hurry = (): void => {
     if (this.closed || document.visibilityState === "hidden") return;
     this.wait = FIRST_WAIT_MS;
-    if (this.socket?.readyState === WebSocket.OPEN) this.send({ type: "ping" });
+    if (this.socket?.readyState === WebSocket.OPEN) this.ping();
     else if (this.socket?.readyState !== WebSocket.CONNECTING) this.restart();
   };
 
@@ -130,7 +131,11 @@ export class Stream {
 
   private beat = (): void => {
     if (!this.socket) return;
-    if (Date.now() - this.heardAt > SILENCE_MS) this.restart();
-    else this.send({ type: "ping" });
+    if (this.owedSince === null) this.ping();
+    else if (Date.now() - this.owedSince > SILENCE_MS) this.restart();
   };
+
+  private ping(): void {
+    if (this.send({ type: "ping" })) this.owedSince ??= Date.now();
+  }
 }

@@ -51,6 +51,11 @@ describe("judging", () => {
       opened(2),
       { type: "feedback_undone", feedback: feedback(1) },
       opened(1),
+      {
+        type: "acknowledged",
+        request_id: "undo-1",
+        feedback: feedback(1, { undone_at: "2026-01-01T00:00:02Z" }),
+      },
     );
     expect(judgeable(judged, 1)).toBe(true);
   });

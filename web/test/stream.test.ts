@@ -79,6 +79,16 @@ describe("stream", () => {
     expect(Socket.made.length).toBe(2);
   });
 
+  it("leaves a connection alone that answers, however late its timers ring", () => {
+    Socket.newest().accept();
+    for (let minute = 0; minute < 5; minute += 1) {
+      vi.setSystemTime(Date.now() + 60_000); // a hidden tab: the clock goes on, the timer sleeps
+      vi.advanceTimersByTime(3000);
+      Socket.newest().onmessage?.({ data: '{"type":"pong"}' });
+    }
+    expect(Socket.made.length).toBe(1);
+  });
+
   it("gives up on a silent connection", () => {
     Socket.newest().accept();
     vi.advanceTimersByTime(15_000);

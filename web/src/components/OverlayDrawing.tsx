@@ -17,8 +17,8 @@ function Haloed(props: {
   return (
     <g data-testid={props.testId}>
       <title>{props.title}</title>
-      {shape({ className: "mark", stroke: "var(--overlay-dark)", strokeWidth: width + 5 })}
-      {shape({ className: "mark", stroke: "var(--overlay-light)", strokeWidth: width + 2.5 })}
+      {shape({ className: "mark", stroke: "var(--overlay-dark)", strokeWidth: width + 4 })}
+      {shape({ className: "mark", stroke: "var(--overlay-light)", strokeWidth: width + 2 })}
       {shape({ className: "mark", stroke: color, strokeWidth: width })}
     </g>
   );
@@ -65,7 +65,7 @@ export function OverlayDrawing(props: { overlay: Overlay; width: number; height:
           title={overlay.arrow ? "Direction and length of the push" : "Height above the table"}
           testId="line"
           color="var(--overlay-dot)"
-          width={3}
+          width={2.5}
           shape={(p) => <path {...p} d={overlay.arrow ? arrowPath(line) : straightPath(line)} />}
         />
       )}
@@ -74,16 +74,16 @@ export function OverlayDrawing(props: { overlay: Overlay; width: number; height:
           title="The gripper closes along this bar"
           testId="bar"
           color="var(--overlay-bar)"
-          width={5}
+          width={4}
           shape={(p) => <path {...p} d={straightPath(bar)} />}
         />
       )}
       {overlay.dot && (
         <g data-testid="dot">
           <title>Where the skill acts</title>
-          <circle cx={overlay.dot[0]} cy={overlay.dot[1]} r={10.5} fill="var(--overlay-dark)" />
-          <circle cx={overlay.dot[0]} cy={overlay.dot[1]} r={9} fill="var(--overlay-light)" />
-          <circle cx={overlay.dot[0]} cy={overlay.dot[1]} r={7} fill="var(--overlay-dot)" />
+          <circle cx={overlay.dot[0]} cy={overlay.dot[1]} r={9} fill="var(--overlay-dark)" />
+          <circle cx={overlay.dot[0]} cy={overlay.dot[1]} r={7.8} fill="var(--overlay-light)" />
+          <circle cx={overlay.dot[0]} cy={overlay.dot[1]} r={6} fill="var(--overlay-dot)" />
         </g>
       )}
     </svg>

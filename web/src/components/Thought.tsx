@@ -1,6 +1,12 @@
 // What the agent thinks: the next subgoal, the feedback it expects, how likely each skill was.
 import type { Proposal } from "../wire";
 
+function signed(value: number): string {
+  const digits = Math.abs(value).toFixed(2);
+  if (digits === "0.00") return digits;
+  return value < 0 ? `−${digits}` : `+${digits}`;
+}
+
 function Gauge({ value }: { value: number }) {
   const bounded = Math.max(-1, Math.min(1, value));
   const half = Math.abs(bounded) * 50;
@@ -20,7 +26,7 @@ function Gauge({ value }: { value: number }) {
           style={{ left: `${bounded < 0 ? 50 - half : 50}%`, width: `${half}%` }}
         />
       </div>
-      <b data-testid="predicted-feedback">{`${value < 0 ? "−" : "+"}${Math.abs(value).toFixed(2)}`}</b>
+      <b data-testid="predicted-feedback">{signed(value)}</b>
     </div>
   );
 }

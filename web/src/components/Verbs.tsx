@@ -19,12 +19,13 @@ export function Verbs(props: { experiment: Experiment; busy: boolean; onVerb: (v
   return (
     <div className="actions">
       {ALLOWED[experiment.lifecycle].map((verb) => {
-        const blocked = props.busy || (experiment.halted && (verb === "start" || verb === "resume"));
+        const moves = verb === "start" || verb === "resume";
+        const blocked = props.busy || (moves && (experiment.halted || experiment.phase === "evaluating"));
         return (
           <button
             key={verb}
             type="button"
-            className={verb === "start" || verb === "resume" ? "button primary" : "button"}
+            className={moves ? "button primary" : "button"}
             data-testid={verb}
             aria-label={`${NAMES[verb]} ${experiment.name}`}
             disabled={blocked}

@@ -1,0 +1,80 @@
+// No overlay on a picture that it wasn't made for.
+import { act } from "react";
+import { describe, expect, it } from "vitest";
+import { useDrawn, Views } from "../src/components/Views";
+import { FrameSink } from "../src/frames";
+import { ImageStore } from "../src/images";
+import type { Proposal } from "../src/wire";
+import { proposal } from "./messages";
+import { byTestId, show } from "./render";
+
+const frames = new FrameSink();
+
+function Page({ images, current }: { images: ImageStore; current: Proposal }) {
+  const { drawn, failed } = useDrawn(images, current);
+  return (
+    <Views
+      images={images}
+      frames={frames}
+      drawn={drawn}
+      failed={failed}
+      overlay={drawn === current}
+      live={null}
+      moving={false}
+      skill={drawn === current ? current.skill : null}
+      empty="Nothing yet"
+    />
+  );
+}
+
+/** A store whose pictures are decoded when the test says so. */
+function pictures() {
+  const waiting: (() => void)[] = [];
+  const images = new ImageStore(
+    () =>
+      new Promise((resolve) => {
+        waiting.push(() => resolve({ close: () => undefined } as unknown as ImageBitmap));
+      }),
+  );
+  const decode = (count: number) =>
+    act(async () => {
+      for (const done of waiting.splice(0, count)) done();
+    });
+  return { images, decode };
+}
+
+const moved = (id: number) =>
+  proposal(id, { views: proposal(id).views.map((view) => ({ ...view, image: `${view.image}-moved` })) });
+
+describe("views", () => {
+  it("draws nothing before both pictures are decoded, then everything", async () => {
+    const { images, decode } = pictures();
+    await show(<Page images={images} current={proposal(1)} />);
+    await decode(1);
+    expect(document.querySelector(".overlay")).toBeNull();
+    expect(byTestId("views").dataset.proposalId).toBeUndefined();
+    await decode(1);
+    expect(document.querySelectorAll(".overlay").length).toBe(2);
+    expect(byTestId("views").dataset.proposalId).toBe("1");
+  });
+
+  it("draws another proposal on the same pictures at once", async () => {
+    const { images, decode } = pictures();
+    await show(<Page images={images} current={proposal(1)} />);
+    await decode(2);
+    await show(<Page images={images} current={proposal(2)} />);
+    expect(byTestId("views").dataset.proposalId).toBe("2");
+  });
+
+  it("takes the old overlay away while the new pictures are still coming", async () => {
+    const { images, decode } = pictures();
+    await show(<Page images={images} current={proposal(1)} />);
+    await decode(2);
+    await show(<Page images={images} current={moved(2)} />);
+    expect(document.querySelector(".overlay")).toBeNull();
+    expect(byTestId("views").dataset.proposalId).toBeUndefined();
+    await decode(2);
+    expect(byTestId("views").dataset.proposalId).toBe("2");
+    expect(document.querySelectorAll(".overlay").length).toBe(2);
+  });
+});
