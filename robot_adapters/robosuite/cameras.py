@@ -28,7 +28,7 @@ OPENCV = np.diag([1.0, -1.0, -1.0])
 # what costs software OpenGL most and tells a trainer least. Shadows and reflections draw the scene again
 OFF = (mujoco.mjtRndFlag.mjRND_SHADOW, mujoco.mjtRndFlag.mjRND_REFLECTION, mujoco.mjtRndFlag.mjRND_HAZE)
 
-VISUAL_GEOMS = 1  # robosuite's group of what is for looks; 0 is for collisions
+VISUAL = 1  # robosuite's group of what is for looks; 0 is for collisions
 
 
 class Cameras:
@@ -57,9 +57,8 @@ class Cameras:
             self._scene.flags[flag] = 0
         self._option = mujoco.MjvOption()
         self._option.geomgroup[:] = 0
-        self._option.geomgroup[VISUAL_GEOMS] = 1
+        self._option.geomgroup[VISUAL] = 1
         self._option.sitegroup[:] = 0
-        self._option.sitegroup[VISUAL_GEOMS] = 1
         self._camera = mujoco.MjvCamera()
         self._camera.type = mujoco.mjtCamera.mjCAMERA_FIXED
         self._pixels = np.empty((HEIGHT, WIDTH, 3), dtype=np.uint8)
@@ -69,6 +68,8 @@ class Cameras:
 
     def render(self, camera: str, *, segmentation: bool = False) -> NDArray[np.uint8]:
         """(480, 640, 3) RGB picture now, top row first; with `segmentation`, colours that `geoms` understands."""
+        # robosuite's invisible sites, a line through the gripper among them, would be drawn in a segmentation
+        self._option.sitegroup[VISUAL] = not segmentation
         self._gl.make_current()  # another adapter of this thread may have drawn since
         self._camera.fixedcamid = self._model.camera(camera).id
         mujoco.mjv_updateScene(
