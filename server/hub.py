@@ -110,7 +110,7 @@ class Hub:
                 )
             stops = runner.stops
             # together with the loop's own steps, so that none of them meets a state that it didn't expect
-            async with runner.turn:
+            async with runner.desk.turn:
                 experiment = await self._store_verb(experiment_id, verb)
                 if verb in ("pause", "finish", "archive"):
                     runner.leave()
@@ -161,13 +161,15 @@ class Hub:
             NotFound: no such proposal, or not one of `experiment_id`. Conflict: the click id was used for another
                 click, or the proposal isn't for people to judge.
         """
-        owner = next((key for key, r in self._runners.items() if r.open_proposal_id == proposal_id), None)
+        opened = {r.desk.open.id: key for key, r in self._runners.items() if r.desk.open is not None}
+        owner = opened.get(proposal_id)
         if owner is None:
             owner = (await self.store.proposal(proposal_id)).experiment_id
         if experiment_id is not None and owner != experiment_id:
             raise NotFound("proposal of this experiment", proposal_id)
         runner = await self._runner(owner)
-        submission = await runner.feedback(proposal_id, body)
+        # a click that has come is carried through, even if its sender leaves meanwhile
+        submission = await asyncio.shield(asyncio.create_task(runner.desk.feedback(proposal_id, body, "person")))
         return submission.feedback, submission.duplicate
 
     async def undo(self, feedback_id: int) -> Feedback:
@@ -178,7 +180,7 @@ class Hub:
         """
         feedback = await self.store.feedback(feedback_id)
         runner = await self._runner(feedback.experiment_id)
-        return await runner.undo(feedback_id)
+        return await asyncio.shield(asyncio.create_task(runner.desk.undo(feedback_id)))
 
     # --- inside -------------------------------------------------------------------------------------------------
 
@@ -195,7 +197,7 @@ class Hub:
         if experiment.lifecycle is Lifecycle.RUNNING:
             experiment = await self.store.transition(experiment_id, "pause")
             runner.changed(experiment)
-        await runner.withdraw()
+        await runner.desk.withdraw()
         return runner.experiment
 
     async def _store_verb(self, experiment_id: int, verb: Act) -> Experiment:
@@ -212,7 +214,7 @@ class Hub:
         elif verb == "reset":
             await runner.reset()
         elif verb in ("pause", "finish"):
-            await runner.withdraw()
+            await runner.desk.withdraw()
         if verb in ("finish", "archive"):
             runner.dismiss()
 

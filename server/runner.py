@@ -10,7 +10,6 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import logging
-import time
 from collections.abc import Callable, Coroutine
 from typing import Any
 
@@ -20,6 +19,7 @@ from agent.algorithm import AgentError
 from robot_adapters.base import AdapterError
 from server.acting import Acting
 from server.crew import Crew, Seen
+from server.desk import Desk
 from server.ledger import Ledger
 from server.publisher import Publisher
 from server.rollouts import roll_out
@@ -28,23 +28,16 @@ from server.schemas import (
     Evaluation,
     Experiment,
     ExperimentChanged,
-    Feedback,
     FeedbackCreate,
-    FeedbackStatus,
-    FeedbackStored,
-    FeedbackUndone,
     Lifecycle,
-    Mode,
     Phase,
     Proposal,
-    ProposalClosed,
-    ProposalOpened,
     StreamEvent,
     Verdict,
 )
 from server.settings import Settings
 from server.store import Conflict, Store, StoreError
-from server.store_values import EpisodeOutcome, StoredLabel, Submission
+from server.store_values import EpisodeOutcome, NewProposal
 from server.teacher import Teacher, teacher
 from server.worker import WorkerDied, WorkerError
 
@@ -87,15 +80,8 @@ class Runner:
         self._executed = 0
         self._seen: Seen | None = None
         self._reset_wanted = False
-        # the proposal that waits for a click, or the one that a click has just closed: never both
-        self._open: Proposal | None = None
-        self._judged: Proposal | None = None
-        self._news = asyncio.Event()
-        self._votes: list[StoredLabel] = []
         self._asked: int | None = None
-        self._waiting_since = 0.0
-        self.turn = asyncio.Lock()
-        """Opening a proposal, starting its execution, taking a click back and pausing exclude each other."""
+        self.desk = Desk(store, self._crew, self._ledger, self._publish, lambda: self.experiment)
 
     # --- what the hub asks --------------------------------------------------------------------------------------
 
@@ -108,11 +94,6 @@ class Runner:
     def busy(self) -> bool:
         """Whether the loop or an evaluation goes on."""
         return self._task is not None and not self._task.done()
-
-    @property
-    def open_proposal_id(self) -> int | None:
-        """The proposal that waits for a click."""
-        return self._open.id if self._open is not None else None
 
     @property
     def evaluating(self) -> bool:
@@ -164,7 +145,7 @@ class Runner:
     def leave(self) -> None:
         """End the loop at its next step; a skill that moves ends first."""
         self._leave.set()
-        self._news.set()
+        self.desk.wake()
 
     def stop(self) -> None:
         """Emergency stop: the robot first, at once and latched; then the loop."""
@@ -182,17 +163,7 @@ class Runner:
     async def reset(self) -> None:
         """Begin a new episode: now if a proposal waits, else as soon as the skill has ended, or at resume."""
         self._reset_wanted = True
-        await self.withdraw()
-
-    async def withdraw(self, reason: CloseReason = CloseReason.WITHDRAWN) -> None:
-        """Close the open proposal without a verdict."""
-        async with self.turn:
-            if self._open is not None:
-                closed = await self._store.close_proposal(self._open.id, reason)
-                if closed.close_reason is not CloseReason.JUDGED:  # else the click was first, and is on its way here
-                    self._open = None
-                    self._publish(ProposalClosed(proposal=closed))
-        self._news.set()
+        await self.desk.withdraw()
 
     async def idle(self) -> None:
         """Wait until neither the loop nor an evaluation goes on."""
@@ -219,51 +190,8 @@ class Runner:
         if experiment.updated_at < self.experiment.updated_at:
             return
         self.experiment = experiment.model_copy(update={"phase": self.phase})
-        self._news.set()
+        self.desk.wake()
         self._publish(ExperimentChanged(experiment=self.experiment))
-
-    # --- clicks -------------------------------------------------------------------------------------------------
-
-    async def feedback(self, proposal_id: int, body: FeedbackCreate, *, kind: str = "person") -> Submission:
-        """Store a click, then act on it: it is committed before anybody hears of it, and before this returns."""
-        submission = await self._store.submit_feedback(proposal_id, body, kind=kind)
-        feedback, closed = submission.feedback, submission.closed
-        if submission.duplicate:
-            return submission
-        if feedback.status is FeedbackStatus.LATE:
-            self._publish(FeedbackStored(feedback=feedback, undoable=False))
-            return submission
-        proposal = closed if closed is not None else self._open
-        if proposal is not None and proposal.id == proposal_id:
-            self._votes.append(label_of(proposal, feedback))
-            self._ledger.note(proposal, feedback.value)
-        if closed is not None:
-            self._open, self._judged = None, closed
-            # without a verdict there is nothing to learn: the votes of a proposal come together
-            votes, self._votes = self._votes, []
-            for vote in votes:
-                self._crew.learn(vote)
-        moves = closed is not None and closed.verdict is Verdict.GOOD and self.experiment.mode is Mode.EXECUTE_APPROVED
-        self._publish(FeedbackStored(feedback=feedback, undoable=not moves))
-        if closed is not None and closed.verdict is not Verdict.GOOD:
-            self._publish(ProposalClosed(proposal=closed))
-        self._news.set()
-        return submission
-
-    async def undo(self, feedback_id: int) -> Feedback:
-        """Take the newest click back: its proposal is open again, the one opened since is withdrawn."""
-        async with self.turn:
-            undone = await self._store.undo_feedback(feedback_id)
-            self._crew.forget(feedback_id)
-            self._await_click(undone.reopened)
-            self._judged = None
-        self._publish(FeedbackUndone(feedback=undone.feedback))
-        if undone.withdrawn is not None:
-            self._publish(ProposalClosed(proposal=undone.withdrawn))
-        self._publish(ProposalOpened(proposal=undone.reopened))
-        self._ledger.refresh()
-        self._news.set()
-        return undone.feedback
 
     # --- the loop -----------------------------------------------------------------------------------------------
 
@@ -274,8 +202,7 @@ class Runner:
         while not leave.is_set() and not await self._enough():
             seen = await self._look()  # [2-4] a new episode where the last one has ended
             await self._propose(seen)  # [5, 6]
-            self._ledger.write()
-            judged = await self._query(leave)  # [7, 8]
+            judged = await self._query(seen, leave)  # [7, 8]
             if judged is not None and judged.verdict is Verdict.GOOD:
                 await self._execute(judged, seen)  # [9-11]
             if self.experiment.lockstep and not leave.is_set():
@@ -291,7 +218,7 @@ class Runner:
             self.enter(Phase.OBSERVING)
             number = (await self._store.experiment(self.experiment.id)).counters.episodes + 1
             seed = episode_seed(self.experiment.seed, number)
-            async with self.turn:
+            async with self.desk.turn:
                 await self._store.begin_episode(self.experiment.id, seed)
             self._episode_open, self._executed = True, 0
             self._seen = await self._crew.reset(seed)
@@ -301,40 +228,38 @@ class Runner:
         return self._seen
 
     async def _propose(self, seen: Seen) -> None:
-        """Have a proposal open: the reopened one after an undo, else a new one. It is stored before it is shown."""
-        if self._open is None and self._judged is None:
-            drawn = await self._acting.draw(seen)
-            async with self.turn:
-                if self._open is None and not self._leave.is_set():
-                    self._await_click(await self._store.open_proposal(drawn))
-                    self._publish(ProposalOpened(proposal=self._open))
+        """Have a proposal open, unless an undo or a click has opened one, or one waits for the gate."""
+        if self.desk.open is None and self.desk.judged is None:
+            self.enter(Phase.PROPOSING)
+            await self.desk.present(await self._acting.draw(seen))
 
-    async def _query(self, leave: asyncio.Event) -> Proposal | None:
-        """Wait until the open proposal is judged, by a person or by the teacher; None where it closed otherwise.
+    async def _query(self, seen: Seen, leave: asyncio.Event) -> Proposal | None:
+        """The proposal that was judged, by a person or by the teacher; None where none was.
 
         Raises:
             WorkerDied: a worker went away while this waited.
         """
-        if self._open is not None:
+        if self.desk.open is not None:
             self.enter(Phase.AWAITING_FEEDBACK)
-        while self._open is not None and not leave.is_set():
-            self._news.clear()
-            if self._teacher is not None and self._asked != self._open.id:
-                await self._ask_teacher(self._teacher, self._open)
-            elif not await self._news_or_death():
-                await self.withdraw(CloseReason.TIMED_OUT)
-        judged = self._judged
-        if judged is not None and judged.verdict is not Verdict.GOOD:
-            self._judged = None
-        return judged
+            self._ledger.write()
+            if self._teacher is not None and self._asked != self.desk.open.id:
+                await self._ask_teacher(self._teacher, self.desk.open)
+            elif not self.experiment.lockstep:
+                self.desk.draw_ahead(lambda: asyncio.create_task(self._draw_ahead(seen)))
+        return await self.desk.verdict(leave)
+
+    async def _draw_ahead(self, seen: Seen) -> NewProposal:
+        """What would be proposed next if nothing moves: once the learner is done, its policy stands still."""
+        await self._crew.flush()
+        return await self._acting.draw(seen)
 
     async def _execute(self, judged: Proposal, seen: Seen) -> None:
         """Run the approved call if the gate opens, and end the episode if that solved or spoiled the task."""
         self.enter(Phase.DECIDING)
-        async with self.turn:
-            if self._judged is not judged:  # taken back in the meantime
+        async with self.desk.turn:
+            if self.desk.judged is not judged:  # taken back in the meantime
                 return
-            self._judged = None
+            self.desk.judged = None
             execution = await self._acting.decide(judged, seen)
         if execution is None:
             return
@@ -373,10 +298,9 @@ class Runner:
             except Conflict:
                 if not leave.is_set():  # else a pause or a stop came between two steps
                     raise
-        await self.withdraw()
-        if self._judged is not None:  # approved, and then the loop ended: the gate was never asked
-            self._publish(ProposalClosed(proposal=self._judged))
-            self._judged = None
+        await self.desk.withdraw()
+        self.desk.drop_judged()
+        self.desk.forget_ahead()
         await self._ledger.leave()
 
     async def _guarded(self, work: Coroutine[Any, Any, None]) -> None:
@@ -397,7 +321,7 @@ class Runner:
         await self._crew.bury(death)
         if death.worker == "robot":
             self._seen = None
-            await self.withdraw(CloseReason.INTERRUPTED)
+            await self.desk.withdraw(CloseReason.INTERRUPTED)
             await self._end_episode("interrupted")
 
     async def _evaluate(self, evaluation: Evaluation, leave: asyncio.Event) -> None:
@@ -415,7 +339,7 @@ class Runner:
     async def _fail(self, why: str) -> None:
         self._seen = None
         with contextlib.suppress(StoreError):  # a full disk can't even be told of; the log has it
-            await self.withdraw(CloseReason.INTERRUPTED)
+            await self.desk.withdraw(CloseReason.INTERRUPTED)
             await self._end_episode("interrupted")
             self.changed(await self._store.transition(self.experiment.id, "fail", failure=why))
 
@@ -442,30 +366,7 @@ class Runner:
         body = FeedbackCreate(
             click_id=f"teacher-{proposal.id}", value=value, trainer=f"teacher:{self.experiment.teacher}"
         )
-        await self.feedback(proposal.id, body, kind="teacher")
-
-    def _await_click(self, proposal: Proposal) -> None:
-        self._open, self._votes = proposal, []
-        self._waiting_since = time.monotonic()
-
-    async def _news_or_death(self) -> bool:
-        """Wait for news of the open proposal; False if its time is over first."""
-        limit = self.experiment.feedback_timeout
-        left = None if limit is None else max(0.0, self._waiting_since + limit - time.monotonic())
-        waits = {
-            asyncio.ensure_future(self._news.wait()),
-            asyncio.ensure_future(self._crew.death("robot")),
-            asyncio.ensure_future(self._crew.death("learner")),
-        }
-        try:
-            done, _ = await asyncio.wait(waits, timeout=left, return_when=asyncio.FIRST_COMPLETED)
-        finally:
-            for wait in waits:
-                wait.cancel()
-        for wait in done:
-            if isinstance(death := wait.result(), WorkerDied):
-                raise death
-        return bool(done)
+        await self.desk.feedback(proposal.id, body, "teacher")
 
     def _insist(self, task: asyncio.Task[None] | None) -> None:
         """The emergency stop's last word: a robot worker that still moves is killed."""
@@ -486,9 +387,3 @@ class Runner:
 def episode_seed(experiment_seed: int, number: int) -> int:
     """The seed of an episode: the same for the same experiment seed and episode number, unrelated between any two."""
     return int(np.random.SeedSequence([experiment_seed, number]).generate_state(1)[0]) >> 1
-
-
-def label_of(proposal: Proposal, feedback: Feedback) -> StoredLabel:
-    """What the learner is told of a click."""
-    parameters = tuple(proposal.parameters.values())
-    return StoredLabel(feedback.id, tuple(proposal.state), proposal.skill, parameters, feedback.value)

@@ -10,9 +10,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
-import numpy as np
-
-from robot_adapters import registry
 from server import catalogue
 from server.hub import Hub
 from server.schemas import (
@@ -44,11 +41,11 @@ class Recorder:
     frames: list[tuple[FrameHeader, bytes]] = field(default_factory=list)
     _changed: asyncio.Event = field(default_factory=asyncio.Event)
 
-    def publish(self, experiment_id: int, event: StreamEvent) -> None:
+    def publish(self, experiment_id: int, event: StreamEvent) -> None:  # noqa: ARG002 - the protocol's signature
         self.events.append(event)
         self._changed.set()
 
-    def publish_frame(self, experiment_id: int, header: FrameHeader, jpeg: bytes) -> None:
+    def publish_frame(self, experiment_id: int, header: FrameHeader, jpeg: bytes) -> None:  # noqa: ARG002 - as above
         self.frames.append((header, jpeg))
         self._changed.set()
 
@@ -121,11 +118,3 @@ async def stage(data_dir: Path, **settings: Any) -> AsyncIterator[Stage]:
     finally:
         await hub.close()
         await store.close()
-
-
-def teacher_value(proposal: Proposal) -> int:
-    """What the task's rule says of a proposal."""
-    task = registry.task("stacking")
-    from robot_adapters.base import SkillCall
-
-    return task.judge(np.array(proposal.state), SkillCall(proposal.skill, tuple(proposal.parameters.values())))
