@@ -1,4 +1,4 @@
-"""An algorithm that proposes what it is told to: bad calls until it has heard enough, then the true ones.
+"""An algorithm that proposes what it is told to: so many bad calls, then the true ones.
 
 It is a foreign plug-in like any other: its own distribution, found by its entry point, loaded in the learner worker.
 """
@@ -24,18 +24,18 @@ ATTEMPTS = 1000
 class ScriptedSettings(BaseModel, extra="forbid"):
     """Settings of `Scripted`."""
 
-    bad_first: int = Field(default=0, ge=0, description="labels that must have come before the true calls are proposed")
+    bad_first: int = Field(default=0, ge=0, description="bad calls that are proposed before the first true one")
 
 
 class Scripted:
-    """Knows the task: `Task.true_call` is what it proposes once `bad_first` labels have come, bad calls before."""
+    """Knows the task: `Task.true_call` is what it proposes after `bad_first` bad calls."""
 
     def __init__(self, problem: Problem, settings: ScriptedSettings, seed: int) -> None:
         self._task: Task = task(problem.task)
         self._skills = problem.skills
         self._settings = settings
         self._random = np.random.default_rng(seed)
-        self._labels: set[int] = set()
+        self._proposed = 0
         self.policy_version = 0
         self.last_label_id = 0
 
@@ -44,9 +44,15 @@ class Scripted:
         """It learns nothing."""
         return 0
 
+    @property
+    def spare_updates(self) -> int:
+        """Nor does it while somebody thinks."""
+        return 0
+
     def propose(self, state: Array, *, deterministic: bool = False) -> Suggestion:
-        """The true call, or a bad one while labels are missing. The deterministic policy is always right."""
-        right = deterministic or len(self._labels) >= self._settings.bad_first
+        """The true call, or a bad one at first. The deterministic policy is always right."""
+        right = deterministic or self._proposed >= self._settings.bad_first
+        self._proposed += not deterministic
         call = self._task.true_call(state) if right else self._bad(state)
         chances = {spec.name: float(spec.name == call.skill) for spec in self._skills}
         return Suggestion(call, 0.9 if right else -0.9, chances, self.policy_version)
@@ -62,24 +68,22 @@ class Scripted:
         raise RuntimeError(f"{self._task.name} calls nothing bad")
 
     def add(self, labels: Sequence[Label]) -> None:
-        """Count them."""
-        self._labels |= {label.id for label in labels}
-        self.last_label_id = max([self.last_label_id, *self._labels])
+        """Remember how far they go."""
+        self.last_label_id = max([self.last_label_id, *(label.id for label in labels)])
 
     def restore(self, labels: Sequence[Label]) -> None:
-        """Count them again."""
+        """As `add`."""
         self.add(labels)
 
     def forget(self, label_id: int) -> None:
-        """Count one less."""
-        self._labels.discard(label_id)
+        """There is nothing to forget."""
 
     def update(self) -> Mapping[str, float] | None:
         """Nothing to learn."""
         return None
 
     def save(self, path: Path) -> None:
-        """Keep what it counted."""
+        """Keep how far it has heard."""
         path.write_text(json.dumps(self.last_label_id), "utf-8")
 
     def load(self, path: Path) -> None:

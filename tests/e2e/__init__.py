@@ -1,0 +1,1 @@
+"""The project as its user meets it: headless Chromium against the real service."""
