@@ -183,13 +183,30 @@ class Database:
                 job.future.set_result(job.result)
 
     def _attempt(self, connection: Connection, job: _Job) -> None:
-        savepoint = connection.begin_nested()
+        session = Session(connection, join_transaction_mode="create_savepoint", expire_on_commit=False)
         try:
-            with Session(connection, join_transaction_mode="create_savepoint", expire_on_commit=False) as session:
-                job.result = job.run(session)
-                session.commit()
-            savepoint.commit()
-        except Exception as error:  # noqa: BLE001 - handed to the awaiter; the others go on
-            # a full disk ends SQLite's whole transaction: then this raises, and the whole group fails with it
-            savepoint.rollback()
+            job.result = job.run(session)
+            session.commit()  # of the savepoint
+        except Exception as error:
+            if not _in_transaction(connection):
+                # a full disk ends SQLite's whole transaction, a lost connection any: nobody's part is left
+                raise _origin(error) from error
+            session.rollback()
             job.error = translate(error) if isinstance(error, DBAPIError) else error
+        session.close()
+
+
+def _in_transaction(connection: Connection) -> bool:
+    if connection.invalidated:
+        return False
+    driver = connection.connection.dbapi_connection
+    return driver.in_transaction if isinstance(driver, sqlite3.Connection) else True
+
+
+def _origin(error: BaseException) -> BaseException:
+    """The first error of the chain: those after it only say that the savepoint is gone too."""
+    while error.__context__ is not None:
+        error = error.__context__
+        if isinstance(error, DBAPIError) and not isinstance(error.__context__, DBAPIError):
+            break
+    return error

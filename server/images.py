@@ -6,6 +6,7 @@ import contextlib
 import hashlib
 import os
 import re
+import threading
 from pathlib import Path
 
 from server.store_errors import Full, NotFound, StoreError
@@ -29,8 +30,8 @@ class Images:
         target = self._target(sha)
         if target.exists():
             return sha
-        # one name per process: two that write the same picture at once must not share a half-written file
-        partial = target.with_suffix(f".{os.getpid()}.part")
+        # a name of its own: two that write the same picture at once must not share a half-written file
+        partial = target.with_suffix(f".{os.getpid()}-{threading.get_ident()}.part")
         try:
             target.parent.mkdir(parents=True, exist_ok=True)
             with partial.open("wb") as file:

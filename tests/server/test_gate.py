@@ -1,0 +1,79 @@
+"""Every combination of what the gate is told."""
+
+from __future__ import annotations
+
+import itertools
+
+from server import gate
+from server.schemas import Lifecycle, Mode, Verdict
+
+BOTH = (False, True)
+VERDICTS: tuple[Verdict | None, ...] = (*Verdict, None)
+
+
+def test_opens_for_exactly_one_kind_of_situation() -> None:
+    opened = 0
+    for mode, verdict, lifecycle, halted, simulated, operator, inside, current in itertools.product(
+        Mode, VERDICTS, Lifecycle, BOTH, BOTH, BOTH, BOTH, BOTH
+    ):
+        decision = gate.decide(
+            mode=mode,
+            verdict=verdict,
+            lifecycle=lifecycle,
+            halted=halted,
+            simulated=simulated,
+            operator_present=operator,
+            workspace_ok=inside,
+            observation_current=current,
+        )
+        expected = (
+            mode == "execute_approved"
+            and verdict == "good"
+            and lifecycle == "running"
+            and not halted
+            and (simulated or operator)
+            and inside
+            and current
+        )
+        assert decision.allowed == expected
+        assert (decision.reason == "open") == expected
+        opened += expected
+    assert opened == 3  # a simulator with and without an operator, and a real robot with one
+
+
+def test_an_evaluation_moves_simulators_only_and_never_beside_training() -> None:
+    opened = set()
+    for verdict, lifecycle, halted, simulated, inside, current in itertools.product(
+        VERDICTS, Lifecycle, BOTH, BOTH, BOTH, BOTH
+    ):
+        decision = gate.decide_evaluation(
+            verdict=verdict,
+            lifecycle=lifecycle,
+            halted=halted,
+            simulated=simulated,
+            workspace_ok=inside,
+            observation_current=current,
+        )
+        assert (decision.reason == "open") == decision.allowed
+        if decision.allowed:
+            assert verdict == "good"
+            assert simulated
+            assert not halted
+            assert inside
+            assert current
+            opened.add(lifecycle)
+    assert opened == {Lifecycle.CREATED, Lifecycle.PAUSED, Lifecycle.FINISHED}
+
+
+def test_the_reason_names_what_is_in_the_way() -> None:
+    shut = gate.decide(
+        mode=Mode.PROPOSE_ONLY,
+        verdict=Verdict.GOOD,
+        lifecycle=Lifecycle.RUNNING,
+        halted=False,
+        simulated=True,
+        operator_present=False,
+        workspace_ok=True,
+        observation_current=True,
+    )
+    assert shut.reason == "the mode is propose only"
