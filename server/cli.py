@@ -1,7 +1,7 @@
 """The command line: `seed serve`, `train`, `evaluate`, `check`, `openapi`.
 
-Exit codes: 0 done, 2 wrong arguments or a machine that isn't set up for it, 3 robot, simulator or learner failed or
-can't be had, 130 interrupted.
+Exit codes: 0 done; 1 `check` has findings; 2 wrong arguments, or a machine that isn't set up; 3 robot, simulator or
+learner failed or can't be had; 130 interrupted.
 """
 
 from __future__ import annotations
@@ -16,7 +16,8 @@ import typer
 from pydantic import ValidationError
 from rich.console import Console
 
-from server.cli_runs import Interrupted, RunFailed, evaluate_stored, train_headless
+from robot_adapters.base import AdapterError, Unavailable
+from server.cli_runs import Interrupted, RunFailed, check_plug_in, evaluate_stored, train_headless
 from server.cli_serve import run_server
 from server.errors import ServiceError
 from server.origin import check_bind
@@ -28,7 +29,8 @@ USAGE, FAILED, INTERRUPTED = 2, 3, 130
 
 app = typer.Typer(
     help="Train a robot arm from a browser tab by clicking good or bad.",
-    epilog="Exit codes: 0 done; 2 wrong arguments or set-up; 3 robot, simulator or learner failed; 130 interrupted.",
+    epilog="Exit codes: 0 done; 1 check has findings; 2 wrong arguments or set-up; 3 robot, simulator or learner "
+    "failed; 130 interrupted.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
@@ -104,6 +106,25 @@ def evaluate(
     settings = _settings(data_dir=data_dir)
     body = EvaluationCreate(rollouts=rollouts, seed=seed)
     _report(lambda: evaluate_stored(settings, experiment, body, _stderr), as_json)
+
+
+@app.command()
+def check(
+    name: Annotated[str, typer.Argument(help="a task or an adapter, of this project or your own")],
+    task: Annotated[
+        str | None, typer.Option(help="check an adapter with this task only [default: all it names]")
+    ] = None,
+) -> None:
+    """Tell the author of a task or an adapter what is wrong with it. Exit code 1: something is."""
+    try:
+        findings = check_plug_in(name, task)
+    except AdapterError as error:
+        _give_up(str(error), error.remedy, FAILED if isinstance(error, Unavailable) else USAGE)
+    for finding in findings:
+        typer.echo(f"- {finding}")
+    if findings:
+        raise typer.Exit(1)
+    typer.echo(f"{name}: nothing found")
 
 
 @app.command()

@@ -12,6 +12,7 @@ from typing import Any
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
+from robot_adapters import registry
 from server.errors import ServiceError
 from server.hub import Act
 from server.schemas import (
@@ -148,6 +149,20 @@ async def evaluate_stored(
         with bar.shown(), _interrupts() as interrupted:
             evaluation = await _evaluate(service, bar, experiment_id, body, interrupted)
     return evaluation.model_dump(mode="json")
+
+
+def check_plug_in(name: str, task: str | None) -> list[str]:
+    """What is wrong with the task or adapter of this name, in plain words; this runs it.
+
+    Raises:
+        UnknownName: there is neither. Unavailable: simulator, graphics or robot can't be had here.
+    """
+    from robot_adapters import check  # noqa: PLC0415  it runs what it checks; nothing else here should
+
+    if name in registry.tasks():
+        return check.check_task(name)
+    tasks = (task,) if task is not None else registry.adapter(name).tasks
+    return [finding for staged in tasks for finding in check.check_adapter(name, staged)]
 
 
 async def _evaluate(

@@ -28,7 +28,6 @@ SLUGS = {
     405: "method-not-allowed",
     409: "conflict",
     413: "too-large",
-    415: "unsupported-media-type",
     422: "invalid",
     500: "internal",
     503: "unavailable",
@@ -92,7 +91,7 @@ def problem(
 ) -> Problem:
     """Problem details; `type` is a stable relative reference, explained in docs/api.md."""
     return Problem(
-        type=f"/problems/{slug or SLUGS.get(status, 'error')}",
+        type=f"/problems/{slug or SLUGS.get(status, "bad-request")}",
         title=HTTPStatus(status).phrase,
         status=status,
         detail=detail,

@@ -68,6 +68,7 @@ ClickId = Annotated[
         description="made by the client, unique per click; the same id again is acknowledged again and stored once",
     ),
 ]
+RowId = Annotated[StrictInt, Field(ge=1, lt=2**63)]
 Seed = Annotated[StrictInt, Field(ge=0, lt=2**31)]
 Name = Annotated[str, Field(min_length=1, max_length=120)]
 
@@ -633,7 +634,7 @@ class ClientFeedback(Wire):
 
     type: Literal["feedback"]
     click_id: ClickId
-    proposal_id: StrictInt
+    proposal_id: RowId
     value: Value
     trainer: Annotated[str, Field(min_length=1, max_length=64)] = "local"
 
@@ -643,7 +644,7 @@ class ClientUndo(Wire):
 
     type: Literal["undo"]
     request_id: ClickId
-    feedback_id: StrictInt
+    feedback_id: RowId
 
 
 class ClientHalt(Wire):

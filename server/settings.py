@@ -79,3 +79,21 @@ class Settings(BaseSettings):
     def loopback(self) -> bool:
         """Whether only this machine can reach the service."""
         return self.host in ("localhost", "::1") or self.host.startswith("127.")
+
+
+def documentation() -> str:
+    """docs/settings.md: every setting with its environment variable, default and meaning."""
+    lines = [
+        "# Settings",
+        "",
+        "Every setting is an environment variable. `seed serve --host --port --data-dir` win over the environment.",
+        "",
+        "| variable | default | meaning |",
+        "|---|---|---|",
+    ]
+    for name, field in Settings.model_fields.items():
+        default = field.default
+        shown = "none" if default in (None, ()) else str(default)
+        shown = shown.lower() if isinstance(default, bool) else shown
+        lines.append(f"| `SEED_{name.upper()}` | `{shown}` | {field.description} |")
+    return "\n".join(lines) + "\n"

@@ -11,6 +11,7 @@ from server.errors import ServiceError
 from server.images import Images
 from server.routes.dependencies import Cursor, Id, Limit, Running, errors
 from server.schemas import Proposal, ProposalPage
+from server.store_errors import NotFound
 
 router = APIRouter(tags=["proposals"])
 
@@ -47,11 +48,12 @@ async def get_image(service: Running, request: Request, proposal_id: Id, camera:
     headers = {"ETag": f'"{view.image}"', "Cache-Control": "private, max-age=31536000, immutable"}
     if headers["ETag"] in request.headers.get("if-none-match", ""):
         return Response(status_code=304, headers=headers)
-    path = Images(service.settings.data_dir).path(view.image)
-    if not path.is_file():
+    try:
+        path = Images(service.settings.data_dir).path(view.image)
+    except NotFound as error:
         raise ServiceError(
             404,
             f"the picture of {camera} is missing on disk",
             remedy="put the images directory of the data directory back from a backup",
-        )
+        ) from error
     return FileResponse(path, media_type="image/jpeg", headers=headers)

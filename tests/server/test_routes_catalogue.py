@@ -1,0 +1,92 @@
+"""The catalogue over HTTP, and what it says to a wrong experiment."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+from tests.server.serving import EXPERIMENT, serving
+from tests.server.test_errors import check_problem
+
+WRONG: list[tuple[dict[str, Any], str, str]] = [
+    ({"task": "juggling"}, "task", "stacking"),
+    ({"adapter": "ur5"}, "adapter", "kinematic"),
+    ({"algorithm": "dqn"}, "algorithm", "seed"),
+    ({"preset": "fast"}, "preset", "paper_sim"),
+    ({"teacher": "mother"}, "teacher", "synthetic"),
+    ({"settings": {"batchsize": 1}}, "settings.batchsize", "batch_size"),
+    ({"settings": {"batch_size": "many"}}, "settings.batch_size", ""),
+    ({"settings": {"batch_size": 0}}, "settings.batch_size", ""),
+    ({"settings": {"batch_size": 1.5}}, "settings.batch_size", ""),
+    ({"settings": {"batch_size": None}}, "settings.batch_size", ""),
+    ({"settings": {"learning_rate": -1}}, "settings.learning_rate", ""),
+    ({"settings": []}, "settings", ""),
+    ({"adapter_settings": {"gravity": 1}}, "adapter_settings.gravity", ""),
+    ({"aggregation": "majority"}, "aggregation", "first"),
+    ({"aggregation": "loudest"}, "aggregation", ""),
+    ({"mode": "fly"}, "mode", ""),
+    ({"seed": -1}, "seed", ""),
+    ({"seed": 1.5}, "seed", ""),
+    ({"seed": True}, "seed", ""),
+    ({"name": ""}, "name", ""),
+    ({"name": "x" * 200}, "name", ""),
+    ({"name": None}, "name", ""),
+    ({"feedback_timeout": 0}, "feedback_timeout", ""),
+    ({"owner": "me"}, "owner", ""),
+]
+
+
+async def test_the_catalogue_lists_what_an_experiment_may_name(tmp_path: Path) -> None:
+    async with serving(tmp_path) as live:
+        tasks = {t["name"]: t for t in (await live.http.get("/api/v1/tasks")).json()}
+        adapters = {a["name"]: a for a in (await live.http.get("/api/v1/adapters")).json()}
+        algorithms = {a["name"]: a for a in (await live.http.get("/api/v1/algorithms")).json()}
+        assert {"reaching", "stacking"} <= set(tasks)
+        assert [f["size"] for f in tasks["stacking"]["state"]]
+        assert sum(f["size"] for f in tasks["stacking"]["state"]) == 6  # the paper's vector
+        assert sum(f["size"] for f in tasks["reaching"]["state"]) == 4
+        assert {"reaching", "stacking"} <= set(adapters["kinematic"]["tasks"])
+        assert adapters["kinematic"]["simulated"] is True
+        assert {"paper_sim", "paper_real"} <= set(algorithms["seed"]["presets"])
+        described = algorithms["seed"]["settings_schema"]["properties"]
+        assert all(field["description"] for field in described.values())
+        assert "synthetic" in (await live.http.get("/api/v1/teachers")).json()
+        for kind, names in (("tasks", tasks), ("adapters", adapters), ("algorithms", algorithms)):
+            for name, body in names.items():
+                assert (await live.http.get(f"/api/v1/{kind}/{name}")).json() == body
+
+
+async def test_a_wrong_experiment_is_told_which_field_and_what_to_do(tmp_path: Path) -> None:
+    async with serving(tmp_path) as live:
+        for change, field, known in WRONG:
+            told = check_problem(await live.http.post("/api/v1/experiments", json=EXPERIMENT | change), 422)
+            assert field in [f.field for f in told.fields], (change, told)
+            assert known in told.remedy, (change, told)
+        missing = check_problem(await live.http.post("/api/v1/experiments", json={}), 422)
+        assert {f.field for f in missing.fields} == {"name", "task"}
+        not_finite = '{"name": "x", "task": "stacking", "adapter": "kinematic", "settings": {"learning_rate": NaN}}'
+        headers = {"Content-Type": "application/json"}
+        check_problem(await live.http.post("/api/v1/experiments", content=not_finite, headers=headers), 422)
+        assert (await live.http.get("/api/v1/experiments")).json()["items"] == []
+
+
+async def test_settings_are_resolved_from_defaults_preset_and_body(tmp_path: Path) -> None:
+    async with serving(tmp_path) as live:
+        body = EXPERIMENT | {"preset": "paper_real", "settings": {"batch_size": 32}}
+        stored = (await live.http.post("/api/v1/experiments", json=body)).json()
+        preset = (await live.http.get("/api/v1/algorithms/seed")).json()["presets"]["paper_real"]
+        assert stored["settings"] == stored["settings"] | preset | {"batch_size": 32}
+        schema = (await live.http.get("/api/v1/algorithms/seed")).json()["settings_schema"]
+        assert set(stored["settings"]) == set(schema["properties"])
+
+
+def test_the_catalogue_loads_neither_torch_nor_a_simulator() -> None:
+    program = (
+        "import sys; from server import catalogue; from server.schemas import ExperimentCreate;"
+        "catalogue.check(ExperimentCreate(name='x', task='stacking', preset='paper_sim', teacher='synthetic'));"
+        "print([m for m in ('torch', 'mujoco', 'robosuite') if m in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
