@@ -91,7 +91,7 @@ def problem(
 ) -> Problem:
     """Problem details; `type` is a stable relative reference, explained in docs/api.md."""
     return Problem(
-        type=f"/problems/{slug or SLUGS.get(status, "bad-request")}",
+        type=f"/problems/{slug or SLUGS.get(status, 'bad-request')}",
         title=HTTPStatus(status).phrase,
         status=status,
         detail=detail,
