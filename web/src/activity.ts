@@ -9,7 +9,8 @@ export interface Activity {
 const still = (text: string): Activity => ({ tone: "still", text });
 const busy = (text: string): Activity => ({ tone: "busy", text });
 
-export function activity(state: TrainerState): Activity {
+/** `drawn`: whether the newest proposal is on the screen with its pictures. */
+export function activity(state: TrainerState, drawn: boolean): Activity {
   const { experiment } = state;
   if (!experiment)
     return busy(state.connection === "lost" ? "The service doesn't answer. Trying again." : "Loading");
@@ -26,15 +27,15 @@ export function activity(state: TrainerState): Activity {
     case "archived":
       return still("Archived");
     case "running":
-      return running(state);
+      return running(state, drawn);
   }
 }
 
-function running(state: TrainerState): Activity {
+function running(state: TrainerState, drawn: boolean): Activity {
   const { execution, proposal, experiment } = state;
   if (execution) return { tone: "moving", text: `Executing ${execution.skill}, live video` };
   if (experiment?.phase === "evaluating") return evaluating(state);
-  if (proposal && isOpen(proposal) && proposal.purpose !== "evaluation") return waiting(state);
+  if (proposal && isOpen(proposal) && proposal.purpose !== "evaluation") return waiting(state, drawn);
   switch (experiment?.phase) {
     case "starting":
       return busy("Starting the robot and the learner");
@@ -51,9 +52,10 @@ function running(state: TrainerState): Activity {
   }
 }
 
-function waiting(state: TrainerState): Activity {
+function waiting(state: TrainerState, drawn: boolean): Activity {
   if (state.experiment?.teacher) return busy(`The ${state.experiment.teacher} teacher is judging`);
   const pending = state.proposal ? pendingFor(state, state.proposal.id) : null;
+  if (!drawn) return busy("Loading the pictures");
   if (pending === null) return { tone: "you", text: "Waiting for you" };
   return busy(
     state.connection === "open"

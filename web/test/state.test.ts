@@ -171,7 +171,7 @@ describe("emergency stop", () => {
     expect(asked.stopping).toBe("asked");
     const halted = next(asked, { type: "experiment_changed", experiment: experiment({ halted: true }) });
     expect(halted.stopping).toBe("no");
-    expect(activity(halted).tone).toBe("stopped");
+    expect(activity(halted, true).tone).toBe("stopped");
   });
 });
 
@@ -214,14 +214,18 @@ describe("what is going on", () => {
       having(snapshot({ experiment: experiment({ teacher: "synthetic" }), proposal: proposal(1) })),
     ],
   ])("%s", (text, state) => {
-    expect(activity(state).text).toBe(text);
+    expect(activity(state, true).text).toBe(text);
+  });
+
+  it("doesn't ask for a judgement before the pictures are there", () => {
+    expect(activity(having(snapshot({ proposal: proposal(1) })), false).text).toBe("Loading the pictures");
   });
 
   it("tells of a click kept while offline", () => {
     let state = having(snapshot({ proposal: proposal(1) }));
     state = reduce(state, { kind: "connection", connection: "lost" });
     state = reduce(state, { kind: "pending", clicks: [click] });
-    expect(activity(state).text).toBe("“good” is kept until the connection is back");
+    expect(activity(state, true).text).toBe("“good” is kept until the connection is back");
   });
 
   it("tells of a dead and a restarted worker", () => {

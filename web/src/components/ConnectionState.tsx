@@ -3,8 +3,7 @@ import type { Connection } from "../stream";
 /** Whether the page is in step with the service, and how many clicks wait to be sent. */
 export function ConnectionState({ connection, pending }: { connection: Connection; pending: number }) {
   const open = connection === "open";
-  const kept = pending === 1 ? "1 click kept" : `${pending} clicks kept`;
-  const words = open ? "Connected" : pending > 0 ? `Reconnecting, ${kept}` : "Reconnecting";
+  const words = open ? "Connected" : pending > 0 ? `Reconnecting, ${pending} kept` : "Reconnecting";
   return (
     <span className="connection" role="status" data-testid="connection" data-state={open ? "open" : "lost"}>
       <span className="dot" />

@@ -46,7 +46,7 @@ export function TrainerPage({ id }: { id: number }) {
   };
 
   if (state.fatal) return <ProblemCard problem={state.fatal} />;
-  const now = activity(state);
+  const now = activity(state, current);
   return (
     <>
       <Header back stop>
@@ -74,7 +74,7 @@ export function TrainerPage({ id }: { id: number }) {
             <div className="dock">
               <ActivityLine
                 activity={now}
-                number={drawnId !== null && drawn ? drawn.number : null}
+                number={ready && drawn ? drawn.number : null}
                 canUndo={undoable !== null}
                 onUndo={() => undoable && session.undo(undoable.id)}
               />
