@@ -1,0 +1,129 @@
+"""A click is never lost, doubled or given to another proposal, whatever the network does; and it can be taken back."""
+
+from __future__ import annotations
+
+from playwright.sync_api import Page, expect
+
+from tests.e2e.trainer import Opener, TrainerPage
+from tests.live import LiveService
+
+BAD_ONLY = {"preset": "stubborn"}
+
+
+def clicks(trainer: TrainerPage) -> list[tuple[int, int, str]]:
+    """(proposal, value, status) of every stored click of the experiment."""
+    query = "SELECT proposal_id, value, status FROM feedback WHERE experiment_id = ? ORDER BY id"
+    return [tuple(row) for row in trainer.service.rows(query, trainer.experiment)]
+
+
+def go_offline(trainer: TrainerPage) -> None:
+    """Cut the page's network, and wait until it has noticed."""
+    trainer.page.context.set_offline(True)
+    trainer.disconnected()
+
+
+def go_online(trainer: TrainerPage) -> None:
+    """Give the network back, and wait until the page is in step again."""
+    trainer.page.context.set_offline(False)
+    trainer.connected()
+
+
+def test_an_offline_click_is_kept_and_sent_once(opener: Opener) -> None:
+    trainer = opener(**BAD_ONLY)
+    proposal = trainer.drawn()
+    go_offline(trainer)
+    trainer.press(-1)
+    trainer.press(1)  # judged already: a second press is no second click
+    expect(trainer.connection).to_contain_text("1 click kept")
+    assert clicks(trainer) == []
+    go_online(trainer)
+    trainer.drawn(proposal)
+    assert clicks(trainer) == [(proposal, -1, "stored")]
+
+
+def test_a_kept_click_survives_a_reload_of_the_page(opener: Opener) -> None:
+    trainer = opener(**BAD_ONLY)
+    proposal = trainer.drawn()
+    trainer.service.kill()
+    trainer.disconnected()
+    trainer.press(0)
+    expect(trainer.connection).to_contain_text("1 click kept")
+    trainer.service.start()
+    trainer.page.reload()
+    trainer.connected()
+    expect(trainer.connection).to_have_text("Connected")
+    # The restart had closed the proposal: the click is there, and says that it came late.
+    assert clicks(trainer) == [(proposal, 0, "late")]
+
+
+def test_a_click_that_came_too_late_says_so_and_decides_nothing(opener: Opener, service: LiveService) -> None:
+    trainer = opener(**BAD_ONLY)
+    proposal = trainer.drawn()
+    go_offline(trainer)
+    trainer.press(1)
+    service.post(f"/proposals/{proposal}/feedback", {"click_id": "somebody-else-1", "value": -1, "trainer": "other"})
+    go_online(trainer)
+    expect(trainer.notices).to_contain_text("came too late")
+    assert clicks(trainer) == [(proposal, -1, "stored"), (proposal, 1, "late")]
+    assert trainer.stored(proposal)["verdict"] == "bad"
+    assert trainer.counters()["executions"] == 0
+
+
+def test_undo_opens_the_judged_proposal_again(opener: Opener, service: LiveService) -> None:
+    trainer = opener(**BAD_ONLY)
+    first = trainer.drawn()
+    trainer.press(-1)
+    second = trainer.drawn(first)
+    trainer.test_id("undo").click()
+    expect(trainer.views).to_have_attribute("data-proposal-id", str(first))
+    assert trainer.stored(second)["close_reason"] == "withdrawn"
+    trainer.press(0)
+    third = trainer.drawn(second)
+    trainer.page.keyboard.press("u")
+    expect(trainer.views).to_have_attribute("data-proposal-id", str(first))
+    query = "SELECT value, undone_at IS NOT NULL FROM feedback WHERE experiment_id = ? ORDER BY id"
+    assert [tuple(row) for row in service.rows(query, trainer.experiment)] == [(-1, 1), (0, 1)]
+    assert trainer.stored(third)["close_reason"] == "withdrawn"
+    trainer.shows_feedback(0)
+
+
+def test_nothing_moves_while_the_mode_is_propose_only(opener: Opener) -> None:
+    trainer = opener(mode="propose_only")
+    proposal = trainer.drawn()
+    trainer.press(1)
+    trainer.drawn(proposal)
+    assert trainer.counters()["executions"] == 0
+    # Switched while it runs, and only after a question.
+    trainer.test_id("mode-execute_approved").click()
+    trainer.test_id("mode-confirm").click()
+    expect(trainer.test_id("mode-execute_approved")).to_be_checked()
+    proposal = trainer.drawn(proposal)
+    trainer.press(1)
+    trainer.drawn(proposal)
+    assert trainer.counters()["executions"] == 1
+
+
+def test_a_held_key_judges_one_proposal(opener: Opener) -> None:
+    trainer = opener(**BAD_ONLY)
+    first = trainer.drawn()
+    trainer.page.keyboard.down("3")
+    second = trainer.drawn(first)
+    for _ in range(10):
+        trainer.page.keyboard.down("3")  # a key that is down already repeats
+    trainer.page.keyboard.up("3")
+    trainer.page.evaluate("() => new Promise(requestAnimationFrame)")
+    assert trainer.drawn() == second
+    assert clicks(trainer) == [(first, -1, "stored")]
+
+
+def test_two_pages_of_one_experiment_agree(opener: Opener, page: Page, service: LiveService) -> None:
+    mine = opener(**BAD_ONLY)
+    other = TrainerPage(page.context.new_page(), service, mine.experiment).open()
+    proposal = other.drawn()
+    assert mine.drawn() == proposal
+    mine.page.bring_to_front()
+    mine.press(-1)
+    following = mine.drawn(proposal)
+    other.page.bring_to_front()
+    assert other.drawn(proposal) == following
+    other.shows_feedback(1)
