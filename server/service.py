@@ -73,13 +73,18 @@ async def opened(settings: Settings, listener: Publisher | None = None) -> Async
     with _owned(settings.data_dir):
         store = await Store.open(settings.database_url, settings.data_dir)
         try:
+            # a first write: a database that can't be written fails here, and not at somebody's first click
+            await store.remember("start", "start", "", 200, None)
             rooms = Rooms(queue_limit=settings.viewer_queue)
             hub = Hub(store, settings, listener or rooms)
             await hub.start()
             try:
                 yield Service(settings, store, rooms, hub)
             finally:
-                await hub.close()
+                try:
+                    await hub.close()
+                except StoreError as error:
+                    log.warning("experiments could not be paused, the next start does it: %s. %s", error, error.remedy)
         finally:
             await store.close()
 

@@ -77,7 +77,7 @@ class Serving:
         """The body of a click with an id of its own."""
         return {"click_id": f"click-{next(self._counts):08d}", "value": value} | fields
 
-    def stream(self, experiment_id: int, **options: Any) -> connect:
+    def stream(self, experiment_id: int | str, **options: Any) -> connect:
         """A WebSocket on the experiment's stream, to be entered."""
         address = self.url.replace("http", "ws", 1) + f"/api/v1/experiments/{experiment_id}/stream"
         return connect(address, **({"max_size": None} | options))
@@ -86,7 +86,8 @@ class Serving:
 @contextlib.asynccontextmanager
 async def serving(data_dir: Path, **settings: Any) -> AsyncIterator[Serving]:
     """Serve from `data_dir`; leaving ends every process."""
-    chosen = Settings(**({"data_dir": data_dir, "create_first_experiment": False} | settings))
+    options: dict[str, Any] = {"data_dir": data_dir, "create_first_experiment": False} | settings
+    chosen = Settings(**options)
     with socket.socket() as listener:
         listener.bind(("127.0.0.1", 0))
         url = f"http://127.0.0.1:{listener.getsockname()[1]}"

@@ -10,6 +10,7 @@ from typing import Any
 
 import httpx
 import pytest
+from sqlalchemy import text
 
 from server.errors import MEDIA_TYPE, problem_of
 from server.schemas import Problem
@@ -193,6 +194,38 @@ async def test_a_database_that_fails_is_told_with_a_remedy_and_the_service_goes_
     assert (await live.http.get("/ready")).status_code == 503
     assert (await live.http.get("/health")).status_code == 200
     assert (await live.http.get("/api/v1/tasks")).status_code == 200
+
+
+async def _pragma(live: Serving, statement: str) -> None:
+    await live.service.store._database.write(lambda session: session.execute(text(f"PRAGMA {statement}")))
+
+
+async def test_a_full_disk_refuses_what_it_cant_keep_and_the_service_goes_on(live: Serving) -> None:
+    proposal = await live.proposal(await live.experiment())
+    await _pragma(live, "max_page_count = 1")  # SQLite takes the present size for the least
+    stored = 1
+    answer = await live.http.post("/api/v1/experiments", json=EXPERIMENT)
+    while answer.status_code == 201:  # what is left in the last pages
+        stored += 1
+        answer = await live.http.post("/api/v1/experiments", json=EXPERIMENT)
+    told = check_problem(answer, 503)
+    assert told.type == "/problems/storage-full"
+    assert "free space" in told.remedy
+    assert len((await live.http.get("/api/v1/experiments", params={"limit": 200})).json()["items"]) == stored
+    await _pragma(live, "max_page_count = 1000000")
+    address = f"/api/v1/proposals/{proposal.id}/feedback"
+    assert (await live.http.post(address, json=live.click())).status_code == 201
+
+
+async def test_a_database_that_became_read_only_refuses_clicks_and_keeps_what_it_has(live: Serving) -> None:
+    proposal = await live.proposal(await live.experiment())
+    address = f"/api/v1/proposals/{proposal.id}/feedback"
+    await _pragma(live, "query_only = ON")
+    told = check_problem(await live.http.post(address, json=live.click()), 503)
+    assert told.type == "/problems/read-only"
+    assert "writable" in told.remedy
+    assert (await live.http.get(address)).json()["items"] == []
+    assert (await live.http.get(f"/api/v1/proposals/{proposal.id}")).json()["closed_at"] is None
 
 
 def test_an_unforeseen_error_tells_nothing_of_the_inside() -> None:

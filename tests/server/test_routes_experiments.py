@@ -42,7 +42,7 @@ async def test_pages_go_through_all_experiments_once(tmp_path: Path) -> None:
         seen: list[int] = []
         cursor: dict[str, str] = {}
         while True:
-            page = (await live.http.get("/api/v1/experiments", params={"limit": 2} | cursor)).json()
+            page = (await live.http.get("/api/v1/experiments", params={"limit": "2"} | cursor)).json()
             seen += [item["id"] for item in page["items"]]
             if page["next_cursor"] is None:
                 break
