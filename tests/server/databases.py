@@ -42,12 +42,16 @@ def url(request: pytest.FixtureRequest, tmp_path: Path) -> str:
     if request.param == "sqlite":
         return f"sqlite:///{tmp_path / 'data' / 'seed.db'}"
     server: URL = request.getfixturevalue("postgres")
-    name = f"seed_{next(_numbers)}"
     engine = create_engine(server, isolation_level="AUTOCOMMIT")
-    with engine.connect() as connection:
-        connection.exec_driver_sql(f"CREATE DATABASE {name}")
+    with engine.connect() as connection:  # a database for each test would cost seconds and hundreds of megabytes
+        connection.exec_driver_sql(
+            "SELECT pg_terminate_backend(pid) FROM pg_stat_activity"
+            " WHERE datname = current_database() AND pid <> pg_backend_pid()"
+        )
+        connection.exec_driver_sql("DROP SCHEMA public CASCADE")
+        connection.exec_driver_sql("CREATE SCHEMA public")
     engine.dispose()
-    return server.set(database=name).render_as_string(hide_password=False)
+    return server.render_as_string(hide_password=False)
 
 
 @pytest_asyncio.fixture

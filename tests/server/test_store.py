@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 from pydantic import BaseModel
 
@@ -176,7 +178,7 @@ async def test_an_approved_call_runs_once(store: Store) -> None:
     ],
 )
 async def test_a_shut_gate_starts_nothing_and_stays_shut(
-    store: Store, value: int, ask: dict[str, object], reason: str
+    store: Store, value: int, ask: dict[str, Any], reason: str
 ) -> None:
     experiment_id = await running(store)
     proposal = await opened(store, experiment_id)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from typing import Any
 
 import pytest
 
@@ -197,12 +198,14 @@ async def test_undo_and_execution_race_and_exactly_one_wins(store: Store) -> Non
         observation = f"o{number}"
         proposal = await opened(store, experiment_id, observation)
         feedback = (await store.submit_feedback(proposal.id, click(1))).feedback
-        both = [begun(store, proposal.id, observation), store.undo_feedback(feedback.id)]
-        started, undone = (
-            await asyncio.gather(*both, return_exceptions=True)
-            if number % 2
-            else reversed(await asyncio.gather(*reversed(both), return_exceptions=True))
-        )
+        executing = begun(store, proposal.id, observation)
+        undoing = store.undo_feedback(feedback.id)
+        started: Any
+        undone: Any
+        if number % 2:
+            started, undone = await asyncio.gather(executing, undoing, return_exceptions=True)
+        else:
+            undone, started = await asyncio.gather(undoing, executing, return_exceptions=True)
         decision, execution = started
         if isinstance(undone, Conflict):
             winners.add("execution")
