@@ -55,11 +55,14 @@ class SkillSpec:
 
     `name` is one of reach, pick, place, push, release. Position parameters are called x, y, z; push adds `direction`
     (below 0: along x, otherwise along y) and `delta` (signed metres); `yaw` turns the gripper about z.
+
+    The attribute `yaw` (rad) fixes that angle where it is no parameter; None leaves it to the adapter.
     """
 
     name: str
     parameters: tuple[ParameterSpec, ...] = ()
     description: str = ""
+    yaw: float | None = None
 
     @property
     def low(self) -> Array:
@@ -157,12 +160,17 @@ class Scene:
 
     objects: name -> (3,) centre, m, robot base frame. gripper: (3,) grip site, m, robot base frame.
     gripper_closed: whether the fingers are commanded closed. held: the object between the fingers, if any.
+    joints: name -> position of what slides, m from closed. tilts: name -> angle between an object's upright axis and
+    the vertical, rad; one that isn't named stands upright. latched: what `Task.events` has named in this episode.
     """
 
     objects: Mapping[str, Array]
     gripper: Array
     gripper_closed: bool
     held: str | None = None
+    joints: Mapping[str, float] = field(default_factory=dict)
+    tilts: Mapping[str, float] = field(default_factory=dict)
+    latched: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,7 @@ from robot_adapters.tasks.base import Task, state_bounds
 PRIMITIVES = {"reach", "pick", "place", "push", "release"}
 STARTS = 20
 RANDOM_CALLS = 200
+GOOD_CALLS = 20
 
 _TASK_PARTS = {
     "name": "its name in the entry point group seed.tasks",
@@ -29,8 +30,21 @@ _TASK_PARTS = {
     "objects": "a tuple of ObjectSpec: what is in the scene",
     "table_height": "the z of the table's surface in the robot base frame, m",
     "horizon": "after how many executed skills an unsolved episode ends",
+    "layout": "a LayoutSettings with the ranges that starts are drawn from",
 }
-_TASK_METHODS = ("state", "sample_layout", "success", "violations", "subgoal", "judge", "true_call", "keypoints")
+_TASK_METHODS = (
+    "state",
+    "sample_layout",
+    "success",
+    "violations",
+    "events",
+    "subgoal",
+    "judge",
+    "margin",
+    "true_call",
+    "sample_good",
+    "keypoints",
+)
 _FACTORY_PARTS = {
     "name": "its name in the entry point group seed.adapters",
     "description": "one sentence for the catalogue",
@@ -56,7 +70,7 @@ def check_task(name: str) -> list[str]:
     ]
     if missing:
         return missing
-    findings = list(_declarations(task, name))
+    findings = [*_declarations(task, name), *_undescribed(type(task.layout), f"{name}'s layout")]
     # without sound declarations, what follows would only repeat them less clearly
     return findings or _unique(_guarded(lambda: _rules(task)))
 
@@ -140,12 +154,14 @@ def _rules(task: Task) -> Iterator[str]:
         layout, again = (task.sample_layout(np.random.default_rng(seed)) for _ in range(2))
         if layout.keys() != again.keys() or any(not np.array_equal(layout[k], again[k]) for k in layout):
             yield "sample_layout gives two starts for one seed: draw only from the generator it is handed"
-        wanted = {spec.name for spec in task.objects if spec.shape == "block"} | {"gripper"}
+        moved = {spec.name for spec in task.objects if spec.movable}
+        slides = {spec.name for spec in task.objects if spec.shape == "slider"}
+        wanted = moved | slides | {"gripper"}
         if layout.keys() != wanted:
-            yield f"sample_layout places {sorted(layout)}: place exactly the blocks and `gripper`, {sorted(wanted)}"
+            yield f"sample_layout places {sorted(layout)}: place exactly what moves and `gripper`, {sorted(wanted)}"
             return
-        blocks = {name: at for name, at in layout.items() if name != "gripper"}
-        scene = Scene(blocks, layout["gripper"], gripper_closed=False)
+        joints = {name: float(layout[name][0]) for name in slides}
+        scene = Scene({name: layout[name] for name in moved}, layout["gripper"], gripper_closed=False, joints=joints)
         state = task.state(scene)
         if state.shape != low.shape or not np.isfinite(state).all():
             yield f"state() gives shape {state.shape}: it must be finite and as long as its fields, {low.shape}"
@@ -164,9 +180,10 @@ def _teacher(
     task: Task, state: np.ndarray[tuple[int, ...], np.dtype[np.float64]], rng: np.random.Generator
 ) -> Iterator[str]:
     """What is wrong with the teacher's rule, the true call and the keypoints in one state."""
-    points = task.keypoints(state)
-    if points.ndim != 2 or points.shape[1] != 3:
-        yield f"keypoints() gives shape {points.shape}: give (k, 3), or np.zeros((0, 3)) where the state holds none"
+    for skill in (None, *(spec.name for spec in task.skills)):
+        points = task.keypoints(state, skill)
+        if points.ndim != 2 or points.shape[1] != 3:
+            yield f"keypoints() gives shape {points.shape}: give (k, 3), or np.zeros((0, 3)) where the state holds none"
     if not 0 <= task.subgoal(state) < len(task.subgoals):
         yield f"subgoal() gives {task.subgoal(state)}: give an index into the {len(task.subgoals)} subgoals"
     call = task.true_call(state)
@@ -177,6 +194,10 @@ def _teacher(
         return
     if task.judge(state, call) != 1:
         yield "judge() finds the true call bad: the teacher's rule must contain the centre of its own box"
+    if task.margin(state, call) < 0:
+        yield "margin() is below 0 for the true call: give how far a call is inside what judge() calls good, in m"
+    if any(task.judge(state, task.sample_good(state, rng)) != 1 for _ in range(GOOD_CALLS)):
+        yield "judge() finds calls of sample_good() bad: draw only what the teacher's rule calls good"
     calls = [random_call(spec, rng) for spec in task.skills for _ in range(RANDOM_CALLS // len(task.skills))]
     verdicts = [task.judge(state, call) for call in calls]
     if set(verdicts) - {-1, 1}:
@@ -187,11 +208,17 @@ def _teacher(
 
 def _settings(settings: type[BaseModel], name: str) -> Iterator[str]:
     """Fields of an adapter's settings that its user could not understand or would have to fill in."""
+    yield from _undescribed(settings, name)
     for field, about in settings.model_fields.items():
-        if not about.description:
-            yield f"the setting {field} of {name} has no description: add one, the page shows it"
         if about.is_required():
             yield f"the setting {field} of {name} has no default: give one, so that an experiment needs none"
+
+
+def _undescribed(settings: type[BaseModel], owner: str) -> Iterator[str]:
+    """Fields of `settings` without a description."""
+    for field, about in settings.model_fields.items():
+        if not about.description:
+            yield f"the setting {field} of {owner} has no description: add one, the page shows it"
 
 
 def _guarded(rules: Callable[[], Iterator[str]]) -> list[str]:

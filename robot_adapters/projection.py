@@ -47,13 +47,13 @@ def overlay(
         call: the skill with its parameters.
         spec: its spec, which names the parameters.
         table_height: z of the table, m, base frame; where the drop line ends.
-        yaw: the gripper's angle about z, rad, that the skill will use where `spec` has no parameter `yaw`.
+        yaw: the gripper's angle about z, rad, where `spec` neither has a parameter `yaw` nor fixes it.
     """
     values = call.named(spec)
     if not {"x", "y", "z"} <= values.keys():
         return CameraOverlay()
     dot = np.array([values["x"], values["y"], values["z"]])
-    half_bar = closing_direction(values.get("yaw", yaw)) * BAR_LENGTH / 2
+    half_bar = closing_direction(values.get("yaw", yaw if spec.yaw is None else spec.yaw)) * BAR_LENGTH / 2
     pushes = "delta" in values
     if pushes:
         end = dot + push_vector(values.get("direction", 0.0), values["delta"])

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable, Mapping
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any, cast
 
 from robot_adapters.base import AdapterError, AdapterFactory
 from robot_adapters.tasks.base import Task
+from robot_adapters.tasks.layout import changed
 
 TASKS = "seed.tasks"
 ADAPTERS = "seed.adapters"
@@ -30,13 +32,16 @@ def adapters() -> dict[str, AdapterFactory]:
     return cast("dict[str, AdapterFactory]", dict(_load_all(ADAPTERS)))
 
 
-def task(name: str) -> Task:
-    """The task called `name`.
+def task(name: str, layout: Mapping[str, Any] | None = None) -> Task:
+    """The task called `name`, with some ranges of its start layout replaced by those in `layout`.
 
     Raises:
         UnknownName: there is none; the remedy lists those there are.
+        InvalidLayout: the task has no such range, or its value is none.
     """
-    return cast("type[Task]", _find(TASKS, "task", name))()
+    build = cast("Callable[..., Task]", _find(TASKS, "task", name))
+    built = build()
+    return build(changed(built.layout, layout)) if layout else built
 
 
 def adapter(name: str) -> AdapterFactory:

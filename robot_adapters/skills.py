@@ -51,6 +51,9 @@ class Arm(Protocol):
     def step(self, target: Array, yaw: float, gripper_closed: bool) -> None:
         """Hold the set-point (3,) m, base frame, for one control period, then return."""
 
+    def overload(self) -> str | None:
+        """A force or joint that was beyond its limit in the last control period, in words; None if all was well."""
+
 
 class _Ended(Exception):
     """Leaves the nested segments of a skill at once."""
@@ -80,11 +83,11 @@ def run_skill(
         spec: its spec, which names the parameters.
         should_stop: True as soon as the motion must end.
         on_step: called after every set-point.
-        yaw: the gripper's angle where `spec` has no parameter `yaw`; None keeps the present angle.
+        yaw: the gripper's angle where `spec` neither has a parameter `yaw` nor fixes it; None keeps the present angle.
     """
     motion = _Motion(arm, should_stop, on_step)
     values = call.named(spec)
-    angle = values.get("yaw", yaw)
+    angle = values.get("yaw", yaw if spec.yaw is None else spec.yaw)
     try:
         if call.skill == "release":
             motion.fingers(closed=False)
@@ -232,6 +235,8 @@ class _Motion:
         self.on_step()
         if stop:
             raise _Ended(EndReason.STOPPED)
+        if self.arm.overload() is not None:
+            raise _Ended(EndReason.FORCE_LIMIT)
 
 
 def _norm(vector: Array) -> float:

@@ -5,10 +5,14 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from pydantic import Field, model_validator
 
-from robot_adapters.base import Array, SafetyViolation, Scene, SkillCall, SkillSpec
+from robot_adapters.base import Array, SafetyViolation, Scene, SkillSpec
 from robot_adapters.tasks import table
 from robot_adapters.tasks.base import ObjectSpec, StateField, Subgoal
+from robot_adapters.tasks.boxes import Box, Boxed
+from robot_adapters.tasks.layout import LayoutSettings, Range, draw
+from robot_adapters.tasks.rules import misplaced
 
 A, B = "block_a", "block_b"
 HALF_A, HALF_B = 0.02, 0.025
@@ -20,23 +24,38 @@ SEPARATION = 0.085
 # A's centre stands 45 mm above B's when stacked; 2 mm on top let it settle instead of being pressed in
 PLACE_ABOVE = HALF_A + HALF_B + 0.002
 
-# The teacher's boxes around the two targets, m: (x and y, below, above). Inside them a skill succeeds in simulation
-PICK_BOX = (0.015, 0.015, 0.012)
-PLACE_BOX = (0.015, 0.008, 0.025)
+# The teacher's boxes around the two targets, m. Inside them a skill succeeds in simulation
+PICK_BELOW, PICK_ABOVE = (0.015, 0.015, 0.015), (0.015, 0.015, 0.012)
+PLACE_BELOW, PLACE_OVER = (0.015, 0.015, 0.008), (0.015, 0.015, 0.025)
 
 # A block tips over the edge beyond half the lower one's size; a turned square reaches a little further
 STACKED_XY = 0.03
 STACKED_Z = 0.010
 RAISED = 0.02
 """A block this much above where the table would hold it is between the fingers, or on the other block."""
-REACH_MARGIN = 0.005
-"""A block this little outside the workspace can still be taken off-centre."""
+
+# Bounds of each skill: 5 cm and more around where blocks start; a place may be as high as a stack of three
+X, Y = (0.42, 0.70), (-0.14, 0.14)
+PICK_Z, PLACE_Z = table.above(0.005, 0.085), table.above(0.005, 0.155)
 
 _FIELD_LOW = (table.X[0], table.Y[0], table.HEIGHT)
 _FIELD_HIGH = (table.X[1], table.Y[1], table.HEIGHT + 0.25)
 
 
-class Stacking:
+class StackingLayout(LayoutSettings):
+    """Where the blocks start; they are drawn again until they are 85 mm apart, as the open fingers need."""
+
+    x: Range = Field((table.CENTRE[0] - SPREAD, table.CENTRE[0] + SPREAD), description="x of both blocks, m")
+    y: Range = Field((table.CENTRE[1] - SPREAD, table.CENTRE[1] + SPREAD), description="y of both blocks, m")
+
+    @model_validator(mode="after")
+    def _roomy(self) -> StackingLayout:
+        if math.dist((self.x[0], self.y[0]), (self.x[1], self.y[1])) < 1.2 * SEPARATION:
+            raise ValueError("two blocks don't fit: make x or y wider")
+        return self
+
+
+class Stacking(Boxed):
     """Block A (small, red) goes on block B (large, green). State: both centres, nothing of the robot."""
 
     name = "stacking"
@@ -53,13 +72,24 @@ class Stacking:
         StateField(f"{B}_position", 3, "m", "centre of the large green block, base frame", _FIELD_LOW, _FIELD_HIGH),
     )
     skills = (
-        SkillSpec("pick", table.position("where the fingers close"), "Take what is at a position, and lift it."),
-        SkillSpec("place", table.position("where the fingers open"), "Bring what is held to a position; let go."),
+        SkillSpec(
+            "pick",
+            table.position("where the fingers close", x=X, y=Y, z=PICK_Z),
+            "Take what is at a position, and lift it.",
+        ),
+        SkillSpec(
+            "place",
+            table.position("where the fingers open", x=X, y=Y, z=PLACE_Z),
+            "Bring what is held to a position; let go.",
+        ),
     )
     subgoals = (
         Subgoal("pick", "pick up the red block"),
         Subgoal("place", "place it on the green block"),
     )
+
+    def __init__(self, layout: StackingLayout | None = None) -> None:
+        self.layout = layout or StackingLayout()
 
     def state(self, scene: Scene) -> Array:
         """(6,) centres of block A and block B, m, robot base frame."""
@@ -67,8 +97,9 @@ class Stacking:
 
     def sample_layout(self, rng: np.random.Generator) -> dict[str, Array]:
         """Both blocks flat on the table near its middle, `SEPARATION` apart; the gripper open and above them."""
+        ranges = self.layout
         while True:
-            a, b = rng.uniform(-SPREAD, SPREAD, size=(2, 2)) + table.CENTRE
+            a, b = draw(rng, ranges.x, ranges.y), draw(rng, ranges.x, ranges.y)
             if math.dist(a, b) >= SEPARATION:
                 break
         low, high = np.array([-0.10, -0.10, 0.18]), np.array([0.06, 0.10, 0.28])
@@ -85,46 +116,26 @@ class Stacking:
 
     def violations(self, scene: Scene) -> tuple[SafetyViolation, ...]:
         """A block off the table, or where no skill of this task can take it."""
-        found = []
-        for spec in self.objects:
-            x, y, z = (float(v) for v in scene.objects[spec.name])
-            if scene.held == spec.name:
-                continue
-            if z < table.HEIGHT:
-                found.append(SafetyViolation("manual_reset", f"{spec.name} fell off the table"))
-            elif not (_within(x, table.X) and _within(y, table.Y)):
-                found.append(SafetyViolation("manual_reset", f"{spec.name} is out of reach"))
-        return tuple(found)
+        return tuple(v for spec in self.objects for v in misplaced(scene, spec.name, X, Y))
 
     def subgoal(self, state: Array) -> int:
         """0 (pick) until A is off the table, then 1 (place)."""
         return int(_raised(state.tolist()))
 
-    def judge(self, state: Array, call: SkillCall) -> int:
-        """+1 for a pick at block A while it is on the table, or a place on block B while A is raised; otherwise -1.
+    def box(self, state: Array) -> Box:
+        """Pick at block A while it is on the table, place on block B while A is raised.
 
         A block on the other that isn't let go of yet looks as if it were stacked; to place it is still right.
         """
         s = state.tolist()
-        if call.skill == "place" and _raised(s):
-            return _judge_box(call, (s[3], s[4], s[5] + PLACE_ABOVE), PLACE_BOX)
-        if call.skill == "pick" and not _raised(s):
-            return _judge_box(call, (s[0], s[1], s[2]), PICK_BOX)
-        return -1
+        if _raised(s):
+            return Box("place", (s[3], s[4], s[5] + PLACE_ABOVE), PLACE_BELOW, PLACE_OVER)
+        return Box("pick", (s[0], s[1], s[2]), PICK_BELOW, PICK_ABOVE)
 
-    def true_call(self, state: Array) -> SkillCall:
-        """Pick A at its centre, or place it just above B; kept inside the workspace."""
-        s = state.tolist()
-        held = self.subgoal(state) == 1
-        target = (s[3], s[4], s[5] + PLACE_ABOVE) if held else (s[0], s[1], s[2])
-        inside = tuple(
-            min(max(v, low), high) for v, (low, high) in zip(target, (table.X, table.Y, table.Z), strict=True)
-        )
-        return SkillCall("place" if held else "pick", inside)
-
-    def keypoints(self, state: Array) -> Array:
-        """(2, 3) centres of A and B, m, robot base frame."""
-        return state.reshape(2, 3).copy()
+    def keypoints(self, state: Array, skill: str | None = None) -> Array:
+        """(2, 3) centre of A and where it goes on B, m, robot base frame; with `skill`, (1, 3)."""
+        points = {"pick": state[:3], "place": state[3:] + np.array([0.0, 0.0, PLACE_ABOVE])}
+        return np.array([at for name, at in points.items() if skill in {None, name}]).reshape(-1, 3)
 
 
 def _stacked(s: list[float]) -> bool:
@@ -135,16 +146,3 @@ def _stacked(s: list[float]) -> bool:
 def _raised(s: list[float]) -> bool:
     """Whether A is off the table: as long as the task isn't solved, that is in the hand."""
     return s[2] > table.HEIGHT + HALF_A + RAISED
-
-
-def _within(value: float, bounds: tuple[float, float]) -> bool:
-    return bounds[0] - REACH_MARGIN <= value <= bounds[1] + REACH_MARGIN
-
-
-def _judge_box(call: SkillCall, centre: tuple[float, float, float], box: tuple[float, float, float]) -> int:
-    """+1 inside `box` (half width in x and y, below, above) around `centre`, else -1."""
-    dx, dy, dz = (p - c for p, c in zip(call.parameters, centre, strict=True))
-    wide, below, above = box
-    # 1e-9: the box includes its faces, whatever rounding did to them
-    inside = abs(dx) <= wide + 1e-9 and abs(dy) <= wide + 1e-9 and -below - 1e-9 <= dz <= above + 1e-9
-    return 1 if inside else -1

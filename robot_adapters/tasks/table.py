@@ -16,10 +16,29 @@ Y = (-0.25, 0.25)
 Z = (HEIGHT + 0.005, HEIGHT + 0.205)
 
 
-def position(what: str) -> tuple[ParameterSpec, ParameterSpec, ParameterSpec]:
-    """The parameters x, y, z of a skill that may use the whole workspace; `what` completes their description."""
+Bounds = tuple[float, float]
+
+
+def above(low: float, high: float) -> Bounds:
+    """Heights above the table, m, as z in the base frame."""
+    return (HEIGHT + low, HEIGHT + high)
+
+
+def position(
+    what: str, *, x: Bounds = X, y: Bounds = Y, z: Bounds = Z
+) -> tuple[ParameterSpec, ParameterSpec, ParameterSpec]:
+    """The parameters x, y, z of a skill within these bounds (default: all of the workspace); `what` describes them."""
     return (
-        ParameterSpec("x", "m", *X, f"forward from the robot's base, {what}"),
-        ParameterSpec("y", "m", *Y, f"left of the robot's base, {what}"),
-        ParameterSpec("z", "m", *Z, f"height in the robot's base frame, {what}"),
+        ParameterSpec("x", "m", *x, f"forward from the robot's base, {what}"),
+        ParameterSpec("y", "m", *y, f"left of the robot's base, {what}"),
+        ParameterSpec("z", "m", *z, f"height in the robot's base frame, {what}"),
+    )
+
+
+def push(what: str, *, x: Bounds, y: Bounds, z: Bounds, delta: Bounds) -> tuple[ParameterSpec, ...]:
+    """The parameters of a push that starts within these bounds."""
+    return (
+        *position(what, x=x, y=y, z=z),
+        ParameterSpec("direction", "", -1.0, 1.0, "below 0: along x, otherwise along y"),
+        ParameterSpec("delta", "m", *delta, "how far to push; the sign says which way"),
     )
