@@ -331,6 +331,9 @@ class Runner:
             await roll_out(evaluation, self._acting, self._crew, self._store, leave=leave, publish=self._publish)
         except WorkerDied as death:
             await self._crew.bury(death)
+        finally:
+            if self.experiment.lifecycle is Lifecycle.FINISHED:
+                await self._crew.close()
 
     async def _dismiss(self) -> None:
         await self._end_episode("reset")
@@ -341,7 +344,10 @@ class Runner:
         with contextlib.suppress(StoreError):  # a full disk can't even be told of; the log has it
             await self.desk.withdraw(CloseReason.INTERRUPTED)
             await self._end_episode("interrupted")
-            self.changed(await self._store.transition(self.experiment.id, "fail", failure=why))
+            if self._evaluating:
+                await self._store.add_event(self.experiment.id, "evaluation_failed", {"detail": why})
+            else:
+                self.changed(await self._store.transition(self.experiment.id, "fail", failure=why))
 
     async def _enough(self) -> bool:
         """Whether the wanted amount of feedback is stored; then the experiment pauses itself."""

@@ -15,7 +15,6 @@ import signal
 import socket
 import struct
 import sys
-import threading
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -91,37 +90,43 @@ class FrameSender:
 
 
 class StopLatch:
-    """A stop that stays until it is re-armed. The server's end of the channel closing is a stop too: for good."""
+    """A stop that stays until it is re-armed. The server's end of the channel closing is a stop too: for good.
+
+    The channel is read whenever the question is asked, on the asking thread: a listener beside it would first have to
+    win Python's lock from the very motion that it wants to end.
+    """
 
     def __init__(self, sock: socket.socket) -> None:
+        sock.setblocking(False)
         self._channel = sock
+        self._pending = b""
         self._newest = 0
         self._lifted = 0
         self._orphaned = False
-        threading.Thread(target=self._listen, name="stop", daemon=True).start()
 
     def stopped(self) -> bool:
         """Whether motion is forbidden now."""
+        self._read()
         return self._orphaned or self._newest > self._lifted
 
     def rearm(self, upto: int) -> None:
         """Lift every stop up to number `upto`; a later one, even one still on its way, stays."""
         self._lifted = max(self._lifted, upto)
 
-    def _listen(self) -> None:
-        pending = b""
-        while True:
+    def _read(self) -> None:
+        while not self._orphaned:
             try:
                 data = self._channel.recv(64)
+            except BlockingIOError:
+                return
             except OSError:
                 data = b""
             if not data:
                 self._orphaned = True
-                return
-            pending += data
-            while len(pending) >= STOP.size:
-                self._newest = max(self._newest, STOP.unpack(pending[: STOP.size])[0])
-                pending = pending[STOP.size :]
+            self._pending += data
+            while len(self._pending) >= STOP.size:
+                self._newest = max(self._newest, STOP.unpack(self._pending[: STOP.size])[0])
+                self._pending = self._pending[STOP.size :]
 
 
 @dataclass(frozen=True)

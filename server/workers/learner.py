@@ -115,8 +115,9 @@ class Learner:
         return {"sha256": hashlib.sha256(target.read_bytes()).hexdigest()} | self._status()
 
     def load(self, *, path: str) -> dict[str, Any]:
-        """Read a checkpoint."""
+        """Read a checkpoint. `restore` follows: until then there are steps owed and no labels to take them from."""
         self.algorithm.load(Path(path))
+        self._starved = True
         return self._status()
 
     def step(self) -> None:

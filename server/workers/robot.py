@@ -1,7 +1,7 @@
 """The robot worker: owns the robot or simulator with its graphics, looks, draws overlays, and runs approved skills.
 
-Everything that touches the adapter happens on the main thread (a GL context belongs to the thread that made it). Only
-the stop latch listens beside it, so that a stop never waits behind a skill.
+Everything happens on one thread, because a GL context belongs to the thread that made it. A stop has a channel of its
+own, which is looked at between any two set-points: it never waits behind a skill.
 """
 
 from __future__ import annotations

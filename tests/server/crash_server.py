@@ -38,7 +38,7 @@ async def main(data_dir: Path, experiment_id: int, seed: int) -> None:
             record_frame(experiment, header, jpeg)
             say("moving", header.execution_id)
 
-        s.seen.publish, s.seen.publish_frame = publish, publish_frame  # type: ignore[method-assign]
+        s.seen.publish, s.seen.publish_frame = publish, publish_frame  # type: ignore[method-assign,assignment]
         lifecycle = (await s.hub.view(experiment_id)).lifecycle
         await s.hub.act(experiment_id, "start" if lifecycle == "created" else "resume")
         while True:

@@ -21,6 +21,7 @@ from server.schemas import (
     Proposal,
     ProposalOpened,
     StreamEvent,
+    WorkerChanged,
 )
 from server.settings import Settings
 from server.store import Store
@@ -87,9 +88,21 @@ class Stage:
         lockstep = body.lockstep if body.lockstep is not None else body.teacher is not None
         return await self.store.create_experiment(body, lockstep=lockstep)
 
-    async def proposal(self, after: int = 0) -> Proposal:
-        """The proposal that opens behind position `after`."""
-        return (await self.seen.next(ProposalOpened, after)).proposal
+    async def proposal(self, after: int = 0, *, number: int | None = None) -> Proposal:
+        """The proposal that opens behind position `after`, or the one of this number."""
+
+        def wanted(event: ProposalOpened) -> bool:
+            return number is None or event.proposal.number == number
+
+        return (await self.seen.next(ProposalOpened, after, where=wanted)).proposal
+
+    async def worker(self, status: str, after: int = 0) -> str:
+        """The first worker that is told to be of this status behind position `after`."""
+
+        def wanted(event: WorkerChanged) -> bool:
+            return event.status == status
+
+        return (await self.seen.next(WorkerChanged, after, where=wanted)).worker
 
     @property
     def now(self) -> int:

@@ -10,6 +10,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+from server.hub import Act
 from server.schemas import (
     CloseReason,
     EvaluationChanged,
@@ -17,13 +18,16 @@ from server.schemas import (
     ExecutionEnded,
     ExecutionOutcome,
     ExecutionStarted,
+    ExperimentUpdate,
+    FeedbackStatus,
+    FeedbackStored,
     Lifecycle,
+    Mode,
     ProposalClosed,
     ProposalOpened,
     Verdict,
-    WorkerChanged,
 )
-from server.store import Store
+from server.store import Conflict, Store
 from tests.server.stage import Stage, stage
 
 SLOW = {"step_seconds": 0.02}
@@ -44,11 +48,7 @@ async def test_a_robot_worker_killed_in_mid_skill(tmp_path: Path) -> None:
         kill(s, experiment.id, "robot")
         ended = await s.seen.next(ExecutionEnded, at)
         assert ended.execution.outcome is ExecutionOutcome.INTERRUPTED
-        changes = [
-            (await s.seen.next(WorkerChanged, at, where=lambda e, w=wanted: e.status == w)).worker
-            for wanted in ("died", "restarted")
-        ]
-        assert changes == ["robot", "robot"]
+        assert [await s.worker(status, at) for status in ("died", "restarted")] == ["robot", "robot"]
 
         # it goes on with a new episode, and never tries the interrupted motion again
         fresh = await s.proposal(at)
@@ -78,15 +78,15 @@ async def test_a_learner_killed_while_a_person_thinks_knows_every_label_again(tm
         experiment = await s.experiment()
         await s.hub.act(experiment.id, "start")
         for number in range(1, 6):
-            proposal = (await s.seen.next(ProposalOpened, where=lambda e, n=number: e.proposal.number == n)).proposal
+            proposal = await s.proposal(number=number)
             await s.judge(proposal, -1)
-        waiting = (await s.seen.next(ProposalOpened, where=lambda e: e.proposal.number == 6)).proposal
+        waiting = await s.proposal(number=6)
         at = s.now
         kill(s, experiment.id, "learner")
-        await s.seen.next(WorkerChanged, at, where=lambda e: e.status == "died")
+        await s.worker("died", at)
         # the open proposal is still open: a click counts although nobody learns just now
         await s.judge(waiting, 0)
-        await s.seen.next(WorkerChanged, at, where=lambda e: e.status == "restarted")
+        await s.worker("restarted", at)
         await s.proposal(at)
         await s.hub.act(experiment.id, "pause")
         await s.hub.idle(experiment.id)
@@ -126,7 +126,7 @@ async def test_a_worker_that_dies_again_and_again_fails_the_experiment(tmp_path:
             await s.seen.next(ProposalOpened, max(0, at - 1))
             await s.seen.until(lambda: "robot" in s.hub.worker_pids(experiment.id))
             kill(s, experiment.id, "robot")
-            await s.seen.next(WorkerChanged, at, where=lambda e: e.status == "died")
+            await s.worker("died", at)
         await s.hub.idle(experiment.id)
         failed = await s.hub.view(experiment.id)
         assert failed.lifecycle is Lifecycle.FAILED
@@ -135,6 +135,64 @@ async def test_a_worker_that_dies_again_and_again_fails_the_experiment(tmp_path:
         at = s.now
         await s.hub.act(experiment.id, "resume")
         await s.proposal(at)
+
+
+async def test_a_robot_worker_that_ignores_the_emergency_stop_is_killed(tmp_path: Path) -> None:
+    async with stage(tmp_path) as s:
+        experiment = await s.experiment(adapter_settings=SLOW)
+        await s.hub.act(experiment.id, "start")
+        await s.judge(await s.proposal(), 1)
+        await s.seen.until(lambda: s.seen.frames)
+        os.kill(s.hub.worker_pids(experiment.id)["robot"], signal.SIGSTOP)
+        await s.hub.act(experiment.id, "halt")
+        ended = await s.seen.next(ExecutionEnded)
+        assert ended.execution.outcome is ExecutionOutcome.INTERRUPTED
+        await s.hub.idle(experiment.id)
+        assert (await s.hub.view(experiment.id)).halted
+
+
+async def test_a_random_walk_of_clicks_verbs_and_deaths_breaks_nothing(tmp_path: Path) -> None:
+    chance = random.Random(3)
+    verbs: list[Act] = ["pause", "resume", "resume", "resume", "reset", "halt", "rearm", "rearm"]
+    acknowledged: dict[str, tuple[int, int]] = {}
+    async with stage(tmp_path, checkpoint_every=5) as s:
+        experiment = await s.experiment(adapter_settings={"step_seconds": 0.002})
+        await s.hub.act(experiment.id, "start")
+        await s.proposal()
+        for _ in range(150):
+            # no more deaths than an experiment survives
+            what = chance.choices(("click", "undo", "verb", "mode", "kill", "think"), (55, 10, 14, 5, 1, 15))[0]
+            try:
+                if what == "click":
+                    # mostly the newest, sometimes one that is closed by now
+                    proposal = chance.choice(s.seen.of(ProposalOpened)[-3:]).proposal
+                    click = s.click(chance.choice((-1, 0, 1)))
+                    await s.hub.feedback(proposal.id, click)
+                    acknowledged[click.click_id] = (proposal.id, click.value)
+                elif what == "undo":
+                    await s.hub.undo(s.seen.of(FeedbackStored)[-1].feedback.id)
+                elif what == "verb":
+                    await s.hub.act(experiment.id, chance.choice(verbs))
+                elif what == "mode":
+                    await s.hub.update(experiment.id, ExperimentUpdate(mode=chance.choice(list(Mode))))
+                elif what == "kill" and (pids := s.hub.worker_pids(experiment.id)):
+                    os.kill(chance.choice(list(pids.values())), signal.SIGKILL)
+                else:
+                    await asyncio.sleep(chance.uniform(0, 0.1))
+            except (Conflict, IndexError):
+                continue  # refused: that is an answer
+        # whatever happened, it can go on
+        view = await s.hub.view(experiment.id)
+        if view.halted:
+            await s.hub.act(experiment.id, "rearm")
+        at = s.now
+        await s.hub.act(experiment.id, "pause" if view.lifecycle is Lifecycle.RUNNING else "resume")
+        if view.lifecycle is Lifecycle.RUNNING:
+            await s.hub.act(experiment.id, "resume")
+        await s.proposal(at)
+        started = [event.execution.proposal_id for event in s.seen.of(ExecutionStarted)]
+    assert len(acknowledged) > 30
+    await check(tmp_path, experiment.id, acknowledged, started)
 
 
 async def test_the_server_killed_at_random_moments(tmp_path: Path) -> None:
@@ -183,11 +241,13 @@ async def check(
     store = await Store.open(None, data_dir, backup=False)
     await store.recover()
     clicks: dict[str, tuple[int, int]] = {}
+    counted = 0
     proposals = (await store.proposals(experiment_id, limit=500)).items
     for proposal in proposals:
         assert proposal.closed_at is not None
         for feedback in (await store.feedback_of_proposal(proposal.id)).items:
             clicks[feedback.click_id] = (feedback.proposal_id, feedback.value)
+            counted += feedback.status is FeedbackStatus.STORED and feedback.undone_at is None
     assert clicks.items() >= acknowledged.items(), "no acknowledged click is lost or moved"
     by_id = {proposal.id: proposal for proposal in proposals}
     executions = (await store.executions(experiment_id, limit=500)).items
@@ -199,5 +259,5 @@ async def check(
         assert by_id[execution.proposal_id].parameters == execution.parameters
     assert (await store.experiment(experiment_id)).lifecycle is Lifecycle.PAUSED
     counters = (await store.experiment(experiment_id)).counters
-    assert counters.feedback == len(await store.labels(experiment_id)) == len(clicks)
+    assert counters.feedback == len(await store.labels(experiment_id)) == counted
     await store.close()

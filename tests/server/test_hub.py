@@ -18,7 +18,6 @@ from server.schemas import (
     Lifecycle,
     Phase,
     ProposalOpened,
-    WorkerChanged,
 )
 from server.store import Conflict, NotFound
 from tests.server.stage import stage
@@ -31,7 +30,7 @@ async def test_verbs_out_of_place_are_refused_and_change_nothing(tmp_path: Path)
         experiment = await s.experiment()
         for verb in ("pause", "resume", "finish", "reset", "rearm"):
             with pytest.raises(Conflict) as refused:
-                await s.hub.act(experiment.id, verb)  # type: ignore[arg-type]
+                await s.hub.act(experiment.id, verb)
             assert "start" in refused.value.allowed
         with pytest.raises(NotFound):
             await s.hub.act(77, "start")
@@ -62,7 +61,7 @@ async def test_clicks_are_stored_once_and_where_they_belong(tmp_path: Path) -> N
         assert [duplicate for _, duplicate in answers].count(False) == 1
         with pytest.raises(Conflict):
             await s.hub.feedback(proposal.id, s.click(1, "the-very-same"))
-        newer = (await s.seen.next(ProposalOpened, where=lambda e: e.proposal.number == 2)).proposal
+        newer = await s.proposal(number=2)
         with pytest.raises(Conflict):
             await s.hub.feedback(newer.id, click)
         late, _ = await s.hub.feedback(proposal.id, s.click(1), experiment_id=experiment.id)
@@ -102,7 +101,7 @@ async def test_halt_stops_the_arm_and_stays_latched(tmp_path: Path) -> None:
         assert (await s.hub.act(experiment.id, "halt")).halted
         for verb in ("resume", "reset"):
             with pytest.raises(Conflict):
-                await s.hub.act(experiment.id, verb)  # type: ignore[arg-type]
+                await s.hub.act(experiment.id, verb)
         with pytest.raises(Conflict):
             await s.hub.evaluate(experiment.id, EvaluationCreate())
         armed = await s.hub.act(experiment.id, "rearm")
@@ -127,7 +126,7 @@ async def test_halt_works_before_anything_runs_and_while_workers_start(tmp_path:
 
         starting = await s.experiment()
         await s.hub.act(starting.id, "start")
-        await s.seen.next(WorkerChanged, where=lambda e: e.status == "starting")
+        await s.worker("starting")
         await s.hub.act(starting.id, "halt")
         await s.hub.idle(starting.id)
         view = await s.hub.view(starting.id)

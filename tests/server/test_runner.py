@@ -46,7 +46,7 @@ async def test_bad_neutral_good_and_undo(tmp_path: Path) -> None:
         await s.judge(first, -1)
         second = await s.proposal(at)
         await s.judge(second, 0)
-        third = (await s.seen.next(ProposalOpened, where=lambda e: e.proposal.number == 3)).proposal
+        third = await s.proposal(number=3)
         assert first.observation_id == second.observation_id == third.observation_id
         assert [v.image for v in first.views] == [v.image for v in third.views]
         assert not s.seen.of(ExecutionStarted)
@@ -216,7 +216,7 @@ async def test_episode_ends_at_its_horizon(tmp_path: Path) -> None:
         experiment = await s.experiment(task="reaching")
         await s.hub.act(experiment.id, "start")
         for number in range(1, 6):
-            proposal = (await s.seen.next(ProposalOpened, where=lambda e, n=number: e.proposal.number == n)).proposal
+            proposal = await s.proposal(number=number)
             assert proposal.episode == (1 if number <= 4 else 2) or s.seen.of(ExecutionEnded)[-1].execution.task_success
             await s.judge(proposal, 1)
 
