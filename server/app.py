@@ -97,15 +97,24 @@ def _add_page(app: FastAPI) -> None:
     @app.api_route("/{path:page}", methods=["GET", "HEAD"], include_in_schema=False)
     async def page(path: str) -> Response:
         """A file of the built page; an address without a suffix is one of the page's own (SPA)."""
-        root = STATIC.resolve()
-        file = (root / path).resolve()
-        if path and file.is_relative_to(root) and file.is_file():
+        file = _static(path)
+        if file is not None:
             # Vite names what it builds by content hash
             cache = "public, max-age=31536000, immutable" if path.startswith("assets/") else "no-cache"
             return FileResponse(file, headers={"Cache-Control": cache})
-        index = root / "index.html"
-        if not index.is_file():
+        index = _static("index.html")
+        if index is None:
             return HTMLResponse(NOT_BUILT, 503)
         if Path(path).suffix:
             raise errors.ServiceError(404, f"the page has no file /{path}", remedy="reload the page")
         return FileResponse(index, headers={"Cache-Control": "no-cache"})
+
+
+def _static(path: str) -> Path | None:
+    """The file of the built page at this address, if there is one."""
+    root = STATIC.resolve()
+    try:
+        file = (root / path).resolve()
+        return file if file.is_relative_to(root) and file.is_file() else None
+    except (OSError, ValueError):  # longer than a file name may be, or with a NUL in it
+        return None

@@ -136,7 +136,7 @@ def _resolve(field: str, model: type[BaseModel], values: Mapping[str, Any]) -> d
     unknown = sorted(set(values) - set(model.model_fields))
     if unknown:
         raise invalid(
-            [FieldProblem(field=f"{field}.{name}", message="there is no such setting") for name in unknown],
+            [FieldProblem(field=f"{field}.{name}", message="there is no such setting") for name in unknown[:50]],
             remedy=f"the settings are: {_list(model.model_fields)}",
         )
     for name, value in values.items():

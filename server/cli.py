@@ -58,6 +58,8 @@ def serve(
         asyncio.run(run_server(settings, announce=typer.echo))
     except (ServiceError, StoreError) as error:
         _give_up(str(error), error.remedy, USAGE)
+    except KeyboardInterrupt:
+        raise typer.Exit(INTERRUPTED) from None  # before it served; afterwards a signal ends it in order
 
 
 @app.command()
@@ -146,6 +148,8 @@ def _report(run: Any, as_json: bool) -> None:
         _give_up(str(error), error.remedy, FAILED)
     except Interrupted as error:
         _give_up(str(error), error.remedy, INTERRUPTED)
+    except KeyboardInterrupt:
+        raise typer.Exit(INTERRUPTED) from None  # before anything had begun
     except (ServiceError, StoreError) as error:
         _give_up(str(error), error.remedy, USAGE)
     else:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import logging
 from collections.abc import Mapping
 from http import HTTPStatus
@@ -9,7 +10,7 @@ from typing import Any
 
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
-from fastapi.responses import JSONResponse
+from fastapi.responses import Response
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 from starlette.exceptions import HTTPException
@@ -147,17 +148,16 @@ def validation_problem(errors: list[ErrorDetails] | list[Any]) -> Problem:
     return invalid(fields, remedy="correct the named fields; /docs shows the schema").problem
 
 
-def response(details: Problem, headers: Mapping[str, str] | None = None) -> JSONResponse:
-    """The problem as an HTTP response."""
-    return JSONResponse(
-        details.model_dump(mode="json"), details.status, media_type=MEDIA_TYPE, headers=dict(headers or {})
-    )
+def response(details: Problem, headers: Mapping[str, str] | None = None) -> Response:
+    """The problem as an HTTP response. It may quote half a surrogate pair, which UTF-8 can't carry: then `?`."""
+    body = json.dumps(details.model_dump(mode="json"), ensure_ascii=False).encode("utf-8", "replace")
+    return Response(body, details.status, media_type=MEDIA_TYPE, headers=dict(headers or {}))
 
 
 def install(app: FastAPI) -> None:
     """Give every error of the app this one shape."""
 
-    async def handle(_: Request, error: Exception) -> JSONResponse:
+    async def handle(_: Request, error: Exception) -> Response:
         headers = getattr(error, "headers", None) if isinstance(error, HTTPException) else None
         return response(problem_of(error), headers)
 

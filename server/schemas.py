@@ -70,7 +70,8 @@ ClickId = Annotated[
 ]
 RowId = Annotated[StrictInt, Field(ge=1, lt=2**63)]
 Seed = Annotated[StrictInt, Field(ge=0, lt=2**31)]
-Name = Annotated[str, Field(min_length=1, max_length=120)]
+Name = Annotated[str, Field(min_length=1, max_length=120, pattern=r"^[^\x00-\x1f\x7f]+$")]
+TrainerName = Annotated[str, Field(min_length=1, max_length=64, pattern=r"^[^\x00-\x1f\x7f]+$")]
 
 
 class Counters(Wire):
@@ -251,7 +252,7 @@ class FeedbackCreate(Wire):
 
     click_id: ClickId
     value: Value
-    trainer: Annotated[str, Field(min_length=1, max_length=64)] = "local"
+    trainer: TrainerName = "local"
 
 
 class FeedbackStatus(StrEnum):
@@ -636,7 +637,7 @@ class ClientFeedback(Wire):
     click_id: ClickId
     proposal_id: RowId
     value: Value
-    trainer: Annotated[str, Field(min_length=1, max_length=64)] = "local"
+    trainer: TrainerName = "local"
 
 
 class ClientUndo(Wire):

@@ -11,8 +11,9 @@ import contextlib
 import json
 import struct
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Coroutine, Iterator
 from contextlib import contextmanager
+from typing import Any
 
 from fastapi import WebSocket, WebSocketDisconnect
 from pydantic import TypeAdapter, ValidationError
@@ -152,7 +153,7 @@ class Connection:
         self._store = store
         self._experiment_id = experiment_id
         self._inbox: asyncio.Queue[ClientFeedback | ClientUndo] = asyncio.Queue(INBOX_LIMIT)
-        self._halts: set[asyncio.Task[None]] = set()
+        self._going: set[asyncio.Task[None]] = set()
         self._rubbish = 0
 
     async def serve(self) -> None:
@@ -160,12 +161,13 @@ class Connection:
         parts = [
             asyncio.create_task(part) for part in (self._send(), self._receive(), self._work(), self._outbox.overflow())
         ]
-        done, pending = await asyncio.wait(parts, return_when=asyncio.FIRST_COMPLETED)
-        for task in pending:
-            task.cancel()
-        await asyncio.gather(*pending, return_exceptions=True)
-        # a halt is never dropped because its viewer has left
-        await asyncio.gather(*self._halts, return_exceptions=True)
+        try:
+            done, _ = await asyncio.wait(parts, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            for task in parts:
+                task.cancel()
+        # what has been taken from the wire is carried through: a click, and above all a halt
+        await asyncio.gather(*parts, *self._going, return_exceptions=True)
         if self._outbox.overflowed:
             await self._close(TRY_AGAIN_LATER, "too slow: reconnect for a snapshot")
         elif self._rubbish >= RUBBISH_LIMIT:
@@ -206,9 +208,7 @@ class Connection:
             self._answer(Pong())
         elif isinstance(message, ClientHalt):
             # beside the queue: a stop never waits for a click's commit
-            task = asyncio.create_task(self._halt(message))
-            self._halts.add(task)
-            task.add_done_callback(self._halts.discard)
+            self._carry(self._halt(message))
         else:
             try:
                 self._inbox.put_nowait(message)
@@ -221,8 +221,14 @@ class Connection:
     async def _work(self) -> None:
         while True:
             message = await self._inbox.get()
-            # a click that has been taken from the wire is carried through, even if its viewer leaves meanwhile
-            await asyncio.shield(asyncio.ensure_future(self._judge(message)))
+            await asyncio.shield(self._carry(self._judge(message)))
+
+    def _carry(self, work: Coroutine[Any, Any, None]) -> asyncio.Task[None]:
+        """Start something that is finished even if its viewer leaves meanwhile."""
+        task = asyncio.create_task(work)
+        self._going.add(task)
+        task.add_done_callback(self._going.discard)
+        return task
 
     async def _judge(self, message: ClientFeedback | ClientUndo) -> None:
         try:

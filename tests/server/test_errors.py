@@ -143,6 +143,42 @@ async def test_a_body_of_another_kind_is_refused(live: Serving) -> None:
     assert await _count(live) == 0
 
 
+async def test_odd_text_is_refused_and_never_a_crash(live: Serving) -> None:
+    headers = {"Content-Type": "application/json"}
+    start = json.dumps(EXPERIMENT)[:-1]
+    half = r"\ud800"  # of a surrogate pair: JSON can say it, UTF-8 can't
+    for change in (
+        f'"name": "{half}"',
+        f'"task": "{half}"',
+        f'"settings": {{"{half}": 1}}',
+        f'"{half}": 1',
+        r'"name": "a\u0000b"',
+        r'"name": "a\nb"',
+        f'"seed": {"9" * 5000}',
+        f'"settings": {{"batch_size": {"9" * 400}}}',
+        '"feedback_timeout": 1e400',
+    ):
+        answer = await live.http.post("/api/v1/experiments", content=f"{start}, {change}}}", headers=headers)
+        assert answer.status_code in (400, 422), change
+        check_problem(answer, answer.status_code)
+    assert await _count(live) == 0
+
+
+async def test_odd_addresses_lead_nowhere(live: Serving) -> None:
+    for path in (
+        "/api/v1/tasks/%ff",
+        "/api/v1/tasks/%00",
+        "/a%00b.js",
+        "/..%2f..%2fserver/app.py",
+        f"/{'a' * 5000}.js",
+    ):
+        answer = await live.http.get(path)
+        # 503: the page itself isn't built where these tests run
+        assert answer.status_code in (404, 503), path
+        assert b"import" not in answer.content
+    check_problem(await live.http.get("/api/v1/experiments", params={"cursor": "\x00"}), 422)
+
+
 async def test_a_foreign_host_name_is_refused(live: Serving) -> None:
     for host in ("evil.example", "evil.example:8000", "127.0.0.1.evil.example", "", "192.168.1.2"):
         answer = await live.http.get("/api/v1/experiments", headers={"Host": host})
