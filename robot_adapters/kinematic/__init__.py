@@ -20,6 +20,10 @@ class KinematicSettings(BaseModel):
     step_seconds: float = Field(
         0.0, ge=0, le=1, description="Duration of one set-point; 0 lets every skill take effect at once."
     )
+    layout: dict[str, tuple[float, float]] = Field(
+        default_factory=dict,
+        description="Ranges of the start layout, [from, to] in m, that replace some of the task's; see docs/tasks.md.",
+    )
 
 
 class KinematicFactory:
@@ -28,7 +32,7 @@ class KinematicFactory:
     name = "kinematic"
     description = "A drawn table without physics: skills take effect at once, and fail where they would miss."
     simulated = True
-    tasks: tuple[str, ...] = ("reaching", "stacking")
+    tasks: tuple[str, ...] = ("reaching", "stacking", "sweeping", "collecting_toy", "cooking_hotdog")
     settings: type[BaseModel] = KinematicSettings
 
     def __call__(self, task: str, settings: BaseModel) -> Adapter:
@@ -36,12 +40,14 @@ class KinematicFactory:
 
         Raises:
             UnknownName: there is no such task.
+            InvalidLayout: the task has no such range of starts.
         """
         # here and not above: listing adapters shouldn't load a drawing library
         from robot_adapters.kinematic.adapter import KinematicAdapter  # noqa: PLC0415
         from robot_adapters.registry import task as task_by_name  # noqa: PLC0415
 
-        return KinematicAdapter(task_by_name(task), KinematicSettings.model_validate(settings.model_dump()))
+        chosen = KinematicSettings.model_validate(settings.model_dump())
+        return KinematicAdapter(task_by_name(task, chosen.layout), chosen)
 
 
 FACTORY = KinematicFactory()

@@ -26,11 +26,13 @@ from robot_adapters.base import (
     check_call,
 )
 from robot_adapters.kinematic import KinematicSettings
-from robot_adapters.kinematic.picture import CALIBRATIONS, HEIGHT, WIDTH, Painter, Snapshot
+from robot_adapters.kinematic.pencil import CALIBRATIONS, HEIGHT, WIDTH
+from robot_adapters.kinematic.picture import Painter, Snapshot
 from robot_adapters.kinematic.world import World
 from robot_adapters.projection import overlay, push_vector
 from robot_adapters.skills import CLOSING_DWELL, CONTACT, DIRECT, OPENING_DWELL, TRANSIT_CLEARANCE
 from robot_adapters.tasks.base import Task
+from robot_adapters.tasks.episode import Episode
 
 CONTROL_HZ = 20.0
 # m between two set-points: robosuite's Panda moves at 0.6 m/s under the same skills, 20 of them a second
@@ -59,6 +61,7 @@ class KinematicAdapter:
         self._task = task
         self._settings = settings
         self._world = World(task.objects, task.table_height)
+        self._episode = Episode(task, self._world.scene)
         self._painter = Painter(task.objects, task.table_height, settings.jpeg_quality) if settings.draw else None
         self._observation: Observation | None = None
         self.info = AdapterInfo(
@@ -73,6 +76,7 @@ class KinematicAdapter:
     def reset(self, seed: int | None = None) -> Observation:
         """Start an episode; the same seed gives the same start. None draws a fresh one."""
         self._observation = None
+        self._episode.reset()
         self._world.reset(self._task.sample_layout(np.random.default_rng(seed)))
         return self.observe()
 
@@ -80,7 +84,7 @@ class KinematicAdapter:
         """State and images now; the same observation as long as nothing has moved. A picture is drawn when read."""
         if self._observation is None:
             now = time.time()
-            state = self._task.state(self._world.scene())
+            state = self._task.state(self._episode.scene())
             frames = Frames(self._painter, Snapshot.of(self._world), now) if self._painter else {}
             self._observation = Observation(uuid.uuid4().hex, state, frames, now)
         return self._observation
@@ -92,6 +96,7 @@ class KinematicAdapter:
             InvalidCall: the call doesn't fit the task. Nothing has moved.
         """
         spec = check_call(call, self._task.skills)
+        before = self._observation.state if self._observation else self._task.state(self._episode.scene())
         self._observation = None
         end, steps = EndReason.ARRIVED, 0
         for segment in _plan(call, spec, self._world):
@@ -103,8 +108,8 @@ class KinematicAdapter:
             elif ended is not None:
                 end = ended
                 break
-        scene = self._world.scene()
-        return SkillResult(end, steps, self._task.success(scene), self._task.violations(scene))
+        scene = self._episode.scene()
+        return SkillResult(end, steps, self._task.success(scene), self._episode.executed(before, call, end, scene))
 
     def overlays(self, call: SkillCall) -> Mapping[str, CameraOverlay]:
         """The call drawn for every camera.
@@ -127,7 +132,7 @@ class KinematicAdapter:
 
     def success(self) -> bool:
         """Whether the task is solved now."""
-        return self._task.success(self._world.scene())
+        return self._task.success(self._episode.scene())
 
     def close(self) -> None:
         """Nothing to release."""
@@ -148,7 +153,8 @@ class KinematicAdapter:
                 part = i / count
                 at = [a + (b - a) * part for a, b in zip(start, segment.target, strict=True)]
                 if segment.act == "push":
-                    world.push(world.gripper, at)
+                    if world.push(world.gripper, at) > CONTACT:
+                        return EndReason.STALLED, i
                 elif world.move(at) > (CONTACT if segment.contact else STRIDE):
                     return EndReason.STALLED, i
             elif i == count:

@@ -81,8 +81,9 @@ class ObjectSpec:
     origin is from `fixed` towards the robot.
     half_size: half the cube's edge, or the sphere's radius, m. colour: RGB, each 0 to 1.
     fixed: (x, y, z) m, robot base frame, of what never moves; None where `sample_layout` places it.
-    half: (3,) m, half sizes of a compound object's outline, whose middle is `middle` from the origin.
-    tips: whether it falls over when it is knocked or dropped, like a broom that stands.
+    half: (3,) m, half sizes of a compound object's outline, whose middle is `middle` from the origin (right above or
+    below it, as `seat` is).
+    tips: whether it falls over when it is knocked, dropped, or put on an edge, like a broom that stands.
     """
 
     name: str

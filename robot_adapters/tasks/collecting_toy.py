@@ -49,13 +49,13 @@ TRAY_PARTS = (
 TRAVEL = 0.18
 """How far the drawer opens at most."""
 
-# Its sides guide the open tray. Its top begins where the open tray ends, and is see-through: a trainer sees what is
-# in the closed drawer
+# It begins where the closed tray's front is, so that a hand that pushes the handle stays before it. Its top is
+# see-through: a trainer sees what is in the closed drawer
 CABINET_HALF: Vector = (0.083, 0.08, 0.031)
 CABINET_AT: Vector = (TRAY_CLOSED[0] + 0.008, 0.0, table.HEIGHT)
 CABINET_PARTS = (
     *(
-        Part((-0.015, side * (CABINET_HALF[1] - 0.004), CABINET_HALF[2]), (0.098, 0.004, CABINET_HALF[2]), DARK)
+        Part((0.0, side * (CABINET_HALF[1] - 0.004), CABINET_HALF[2]), (CABINET_HALF[0], 0.004, CABINET_HALF[2]), DARK)
         for side in (-1, 1)
     ),
     Part((CABINET_HALF[0] - 0.004, 0.0, CABINET_HALF[2]), (0.004, CABINET_HALF[1] - 0.008, CABINET_HALF[2]), DARK),
@@ -79,18 +79,18 @@ OVER_PUSH = 0.010
 """The right push ends this far beyond where the drawer is closed; the box, from 0 to 40 mm beyond."""
 PUSH_BELOW, PUSH_ABOVE = (0.040, 0.020, 0.012, OVER_PUSH), (0.040, 0.020, 0.012, 0.040 - OVER_PUSH)
 
-PICK_X, PICK_Y, PICK_Z = (0.35, 0.50), (-0.16, 0.16), table.above(0.01, 0.05)
-PLACE_X, PLACE_Y, PLACE_Z = (0.42, 0.72), (-0.15, 0.15), table.above(0.05, 0.17)
-PUSH_X, PUSH_Y, PUSH_Z = (0.42, 0.54), (-0.08, 0.08), table.above(0.01, 0.06)
+PICK_X, PICK_Y, PICK_Z = (0.34, 0.49), (-0.16, 0.16), table.above(0.01, 0.05)
+PLACE_X, PLACE_Y, PLACE_Z = (0.42, 0.71), (-0.15, 0.15), table.above(0.05, 0.17)
+PUSH_X, PUSH_Y, PUSH_Z = (0.40, 0.53), (-0.08, 0.08), table.above(0.01, 0.06)
 PUSH_DELTA = (-0.10, 0.30)
 
 
 class CollectingToyLayout(LayoutSettings):
     """Where the toy starts, and how far the drawer is open."""
 
-    toy_x: Range = Field((0.38, 0.47), description="x of the toy, m")
+    toy_x: Range = Field((0.37, 0.46), description="x of the toy, m")
     toy_y: Range = Field((-0.13, 0.13), description="y of the toy, m")
-    opening: Range = Field((0.14, 0.16), description="how far the drawer is open, m")
+    opening: Range = Field((0.15, 0.17), description="how far the drawer is open, m")
 
 
 class CollectingToy(Boxed):

@@ -89,6 +89,7 @@ class CookingHotdog(Boxed):
             half=(PAN_RADIUS, PAN_RADIUS, PAN_HALF_HEIGHT),
             grip=Grip(SKILLET_GRASP, (0.025, 0.025, 0.012), (0.025, 0.025, 0.014)),
             seat=Seat((0.0, 0.0, FLOOR_Z), (COOKING, COOKING)),
+            tips=True,
         ),
         ObjectSpec(
             SAUSAGE,
@@ -107,7 +108,7 @@ class CookingHotdog(Boxed):
             ),
             half=STOVE_HALF,
             middle=(0.0, 0.0, STOVE_HALF[2]),
-            seat=Seat((0.0, 0.0, 2 * STOVE_HALF[2]), (0.032, 0.032)),
+            seat=Seat((0.0, 0.0, 2 * STOVE_HALF[2]), (ON_STOVE, ON_STOVE)),
         ),
         ObjectSpec(
             BUN,

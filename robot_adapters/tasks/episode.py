@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from robot_adapters.base import Array, SafetyViolation, Scene, SkillCall
+from robot_adapters.base import Array, EndReason, SafetyViolation, Scene, SkillCall
 from robot_adapters.tasks.base import Task
 from robot_adapters.tasks.rules import by_hand
 
@@ -35,10 +35,10 @@ class Episode:
         self._latched |= self._task.events(scene)
         return replace(scene, latched=self._latched) if self._latched else scene
 
-    def executed(self, state: Array, call: SkillCall, scene: Scene) -> tuple[SafetyViolation, ...]:
+    def executed(self, state: Array, call: SkillCall, end: EndReason, scene: Scene) -> tuple[SafetyViolation, ...]:
         """The rules that are broken after `call` was run in `state` (n,) and led to `scene`; call it once each."""
         found = self._task.violations(scene)
-        if call.skill != "pick" or self._task.judge(state, call) <= 0:
+        if call.skill != "pick" or end is EndReason.STOPPED or self._task.judge(state, call) <= 0:
             return found
         self._missed = 0 if scene.held is not None else self._missed + 1
         if self._missed >= MISSES:

@@ -29,7 +29,7 @@ TOY_HALF = 0.02
 # The dustpan lies open towards the robot: a floor 2 mm high, a back, and sides that begin 35 mm behind the lip so that
 # the broom's head may come in a little
 PAN_HALF = (0.05, 0.09)
-PAN_AT: Vector = (0.75, 0.0, table.HEIGHT)
+PAN_AT: Vector = (0.745, 0.0, table.HEIGHT)
 PAN_FLOOR, PAN_WALL = 0.002, 0.03
 SIDES_BEGIN = 0.035
 PAN_PARTS = (
