@@ -57,7 +57,7 @@ BUN_BELOW, BUN_ABOVE = (0.015, 0.008, 0.004), (0.015, 0.008, 0.020)
 SETTLE = 0.002
 """What is placed is let go this far above where it will rest, not pressed in."""
 
-PICK_X, PICK_Y, PICK_Z = (0.36, 0.76), (-0.17, 0.21), table.above(0.01, 0.08)
+PICK_X, PICK_Y, PICK_Z = (0.35, 0.75), (-0.17, 0.21), table.above(0.01, 0.08)
 PLACE_X, PLACE_Y, PLACE_Z = (0.38, 0.73), (0.01, 0.19), table.above(0.02, 0.12)
 
 
@@ -66,7 +66,7 @@ class CookingHotdogLayout(LayoutSettings):
 
     skillet_x: Range = Field((0.65, 0.68), description="x of the skillet's centre, m")
     skillet_y: Range = Field((-0.13, -0.09), description="y of the skillet's centre, m")
-    sausage_x: Range = Field((0.40, 0.44), description="x of the sausage's centre, m")
+    sausage_x: Range = Field((0.38, 0.41), description="x of the sausage's centre, m")
     sausage_y: Range = Field((-0.14, -0.07), description="y of the sausage's centre, m")
 
 
