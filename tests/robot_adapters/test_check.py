@@ -34,7 +34,7 @@ class Misnamed(Stacking):
 
 class Crashing(Stacking):
     name = "crashing"
-    def keypoints(self, state):
+    def keypoints(self, state, skill=None):
         return state["blocks"]
 
 class Empty:
@@ -86,7 +86,7 @@ def plugin(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     sys.modules.pop("checked_plugin", None)
 
 
-@pytest.mark.parametrize("task", ["reaching", "stacking"])
+@pytest.mark.parametrize("task", ["reaching", "stacking", "sweeping", "collecting_toy", "cooking_hotdog"])
 def test_what_ships_is_sound(task: str) -> None:
     assert check_task(task) == []
     assert check_adapter("kinematic", task) == []

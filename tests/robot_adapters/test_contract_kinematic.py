@@ -13,6 +13,21 @@ class TestReaching(AdapterContract):
     task_name = "reaching"
 
 
+class TestSweeping(AdapterContract):
+    adapter_name = "kinematic"
+    task_name = "sweeping"
+
+
+class TestCollectingToy(AdapterContract):
+    adapter_name = "kinematic"
+    task_name = "collecting_toy"
+
+
+class TestCookingHotdog(AdapterContract):
+    adapter_name = "kinematic"
+    task_name = "cooking_hotdog"
+
+
 class TestPaced(AdapterContract):
     """Skills that take their time keep it too."""
 

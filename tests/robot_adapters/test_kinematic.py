@@ -15,7 +15,7 @@ from robot_adapters import registry
 from robot_adapters.base import Adapter, EndReason, SkillCall, SkillResult, Unavailable
 from robot_adapters.kinematic import KinematicSettings
 from robot_adapters.kinematic.adapter import KinematicAdapter
-from robot_adapters.kinematic.picture import CALIBRATIONS
+from robot_adapters.kinematic.pencil import CALIBRATIONS
 from robot_adapters.kinematic.world import World
 from robot_adapters.projection import project
 from robot_adapters.tasks import table
@@ -88,9 +88,9 @@ def test_a_pick_holds_what_is_between_the_fingers(
 def test_a_block_let_go_beside_the_other_falls_to_the_table(blocks: Adapter) -> None:
     state = blocks.reset(3).state
     run(blocks, "pick", *state[:3].tolist())
-    result = run(blocks, "place", 0.40, -0.2, 0.0)
+    result = run(blocks, "place", 0.43, -0.13, 0.0)
     x, y, z = blocks.observe().state[:3].tolist()
-    assert (x, y, z) == pytest.approx((0.40, -0.2, table.HEIGHT + HALF_A))
+    assert (x, y, z) == pytest.approx((0.43, -0.13, table.HEIGHT + HALF_A))
     assert not result.success
 
 
@@ -141,10 +141,10 @@ def test_a_push_takes_along_what_is_in_its_way() -> None:
     world.reset({**layout, "gripper": np.array([0.4, 0.0, low_a])})
     world.closed = True
     world.push([0.4, 0.0, low_a], [0.53, 0.0, low_a])
-    assert world.blocks["block_a"] == pytest.approx([0.53 + 0.01 + HALF_A, 0.0, low_a])
-    assert world.blocks["block_b"][0] >= world.blocks["block_a"][0] + HALF_A + HALF_B - 1e-9
+    assert world.at["block_a"] == pytest.approx([0.53 + 0.01 + HALF_A, 0.0, low_a])
+    assert world.at["block_b"][0] >= world.at["block_a"][0] + HALF_A + HALF_B - 1e-9
     world.push([0.4, 0.2, low_a], [0.7, 0.2, low_a])
-    assert world.blocks["block_a"][0] == pytest.approx(0.56)
+    assert world.at["block_a"][0] == pytest.approx(0.56)
 
 
 def test_a_block_pushed_over_the_edge_falls() -> None:
@@ -153,7 +153,7 @@ def test_a_block_pushed_over_the_edge_falls() -> None:
     layout = {"block_a": np.array([0.9, 0.0, low_a]), "block_b": np.array([0.4, 0.2, table.HEIGHT + HALF_B])}
     world.reset({**layout, "gripper": np.array([0.8, 0.0, low_a])})
     world.push([0.8, 0.0, low_a], [0.95, 0.0, low_a])
-    assert world.blocks["block_a"][2] < table.HEIGHT - 0.1
+    assert world.at["block_a"][2] < table.HEIGHT - 0.1
     assert Stacking().violations(world.scene())[0].kind == "manual_reset"
 
 
@@ -233,3 +233,104 @@ def test_without_drawing_there_are_no_cameras() -> None:
     with pytest.raises(Unavailable, match="left") as raised:
         adapter.frame("left")
     assert "draw" in raised.value.remedy
+
+
+def after(adapter: Adapter, name: str, calls: int) -> list[float]:
+    """The state after that many right calls."""
+    solve(adapter, registry.task(name), calls)
+    state: list[float] = adapter.observe().state.tolist()
+    return state
+
+
+def test_a_broom_sweeps_only_what_its_head_meets() -> None:
+    adapter = build("sweeping", draw=False)
+    adapter.reset(3)
+    state = after(adapter, "sweeping", 1)
+    toy_x, toy_y = state[3:5]
+    run(adapter, "push", toy_x - 0.075, -0.08 if toy_y > 0 else 0.08, table.HEIGHT + 0.08, -0.5, 0.15)
+    assert adapter.observe().state[3:5].tolist() == [toy_x, toy_y]
+    run(adapter, "push", toy_x - 0.075, toy_y, table.HEIGHT + 0.08, -0.5, 0.10)
+    moved = adapter.observe().state[3:5].tolist()
+    # the head's front is 20 mm before the grip site, the toy's middle 20 mm before that
+    assert moved == pytest.approx([toy_x - 0.075 + 0.10 + 0.04, toy_y], abs=0.001)
+
+
+def test_a_knocked_or_dropped_broom_lies_and_cannot_be_picked() -> None:
+    adapter = build("sweeping", draw=False)
+    x, y, z = adapter.reset(3).state[:3].tolist()
+    run(adapter, "pick", x, y, z)
+    result = run(adapter, "pick", 0.50, 0.0, z)
+    assert [v.detail for v in result.violations] == ["the broom fell over"]
+    x, y = adapter.observe().state[:2].tolist()
+    assert run(adapter, "pick", x, y, z).end is EndReason.NOTHING_GRASPED
+
+
+def test_a_drawer_closes_as_far_as_it_is_pushed_and_takes_the_toy_along() -> None:
+    adapter = build("collecting_toy", draw=False)
+    adapter.reset(3)
+    before = after(adapter, "collecting_toy", 2)
+    assert before[5] == 1
+    x, y, z, direction, delta = registry.task("collecting_toy").true_call(np.array(before)).parameters
+    assert not run(adapter, "push", x, y, z, direction, delta - 0.08).success
+    half = adapter.observe().state.tolist()
+    assert half[3] == pytest.approx(0.07)
+    assert half[0] - before[0] == pytest.approx(before[3] - half[3])
+    assert run(adapter, "push", x, y, z, direction, delta).success
+    assert adapter.observe().state[3] == 0
+
+
+def test_a_push_that_misses_the_handle_moves_nothing_and_one_far_beyond_stalls() -> None:
+    adapter = build("collecting_toy", draw=False)
+    adapter.reset(3)
+    before = np.array(after(adapter, "collecting_toy", 2))
+    x, y, z, direction, delta = registry.task("collecting_toy").true_call(before).parameters
+    run(adapter, "push", x, 0.06, z, direction, delta)
+    assert adapter.observe().state[3] == before[3]
+    assert run(adapter, "push", x, y, z, direction, delta + 0.03).end is EndReason.STALLED
+
+
+def test_a_drawer_closed_too_early_needs_a_hand() -> None:
+    adapter = build("collecting_toy", draw=False)
+    opening = adapter.reset(3).state[3]
+    result = run(adapter, "push", 0.46, 0.0, table.HEIGHT + 0.03, -0.5, 0.2)
+    assert opening > 0.1
+    assert "the drawer is closed and the toy outside" in [v.detail for v in result.violations]
+
+
+def test_a_skillet_carries_what_lies_in_it() -> None:
+    adapter = build("cooking_hotdog", draw=False)
+    adapter.reset(3)
+    state = after(adapter, "cooking_hotdog", 4)
+    run(adapter, "pick", state[3] - 0.125, state[4], state[5] + 0.015)
+    lifted = adapter.observe().state.tolist()
+    assert lifted[6] == 1
+    assert lifted[5] > state[5] + 0.05
+    assert np.subtract(lifted[:3], lifted[3:6]) == pytest.approx(np.subtract(state[:3], state[3:6]))
+
+
+def test_a_sausage_beside_the_bun_lies_on_the_table() -> None:
+    adapter = build("cooking_hotdog", draw=False)
+    adapter.reset(3)
+    after(adapter, "cooking_hotdog", 5)
+    result = run(adapter, "place", 0.42, 0.06 + 0.02, table.HEIGHT + 0.05)
+    state = adapter.observe().state.tolist()
+    assert not result.success
+    assert state[10] == 0
+    assert state[2] == pytest.approx(table.HEIGHT + 0.012)
+
+
+@pytest.mark.parametrize("name", ["sweeping", "collecting_toy", "cooking_hotdog"])
+@pytest.mark.parametrize("camera", ["left", "right"])
+def test_what_a_right_call_is_about_is_drawn_under_its_dot(name: str, camera: str) -> None:
+    """Every pick of an episode points at something that isn't table."""
+    adapter, task = build(name), registry.task(name)
+    adapter.reset(5)
+    for _ in task.subgoals:
+        observation = adapter.observe()
+        call = task.true_call(observation.state)
+        if call.skill == "pick":
+            u, v = adapter.overlays(call)[camera].dot or (-1, -1)
+            picture = np.asarray(Image.open(io.BytesIO(observation.frames[camera].jpeg)), dtype=int)
+            around = picture[int(v) - 2 : int(v) + 3, int(u) - 2 : int(u) + 3].reshape(-1, 3).mean(axis=0)
+            assert around.max() - around.min() > 30, "table and hand are grey"
+        adapter.execute(call, should_stop=lambda: False, on_step=lambda: None)
