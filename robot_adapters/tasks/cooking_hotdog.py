@@ -57,7 +57,7 @@ BUN_BELOW, BUN_ABOVE = (0.015, 0.008, 0.004), (0.015, 0.008, 0.020)
 SETTLE = 0.002
 """What is placed is let go this far above where it will rest, not pressed in."""
 
-PICK_X, PICK_Y, PICK_Z = (0.35, 0.75), (-0.17, 0.21), table.above(0.01, 0.08)
+PICK_X, PICK_Y, PICK_Z = (0.35, 0.75), (-0.17, 0.21), table.above(0.01, 0.068)
 PLACE_X, PLACE_Y, PLACE_Z = (0.38, 0.73), (0.01, 0.19), table.above(0.02, 0.12)
 
 
@@ -203,7 +203,7 @@ class CookingHotdog(Boxed):
         handle = (PICK_X[0] - HANDLE_X, PICK_X[1] - HANDLE_X)
         return (
             *misplaced(scene, SKILLET, handle, PICK_Y, "the skillet"),
-            *misplaced(scene, SAUSAGE, PICK_X, PICK_Y, "the sausage"),
+            *misplaced(scene, SAUSAGE, PICK_X, PICK_Y, "the sausage", rolls=True),
         )
 
     def events(self, scene: Scene) -> frozenset[str]:

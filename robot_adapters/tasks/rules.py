@@ -21,15 +21,20 @@ def by_hand(detail: str) -> SafetyViolation:
     return SafetyViolation("manual_reset", detail)
 
 
-def misplaced(scene: Scene, name: str, x: Bounds, y: Bounds, label: str | None = None) -> list[SafetyViolation]:
-    """Whether the object fell, fell over, or lies outside x and y (m, base frame); what is held is none of these."""
+def misplaced(
+    scene: Scene, name: str, x: Bounds, y: Bounds, label: str | None = None, *, rolls: bool = False
+) -> list[SafetyViolation]:
+    """Whether the object fell, fell over, or lies outside x and y (m, base frame); what is held is none of these.
+
+    What `rolls` is as good on its side.
+    """
     label = label or name
     if scene.held == name:
         return []
     at = scene.objects[name]
     if at[2] < table.HEIGHT - BELOW_TABLE:
         return [by_hand(f"{label} fell off the table")]
-    if scene.tilts.get(name, 0.0) > TILTED:
+    if not rolls and scene.tilts.get(name, 0.0) > TILTED:
         return [by_hand(f"{label} fell over")]
     if not (within(float(at[0]), x) and within(float(at[1]), y)):
         return [by_hand(f"{label} is out of reach")]

@@ -57,7 +57,7 @@ PICK_BELOW, PICK_ABOVE = (0.012, 0.020, 0.020), (0.015, 0.020, 0.015)
 PUSH_BELOW, PUSH_ABOVE = (0.015, 0.025, 0.004, 0.015), (0.012, 0.025, 0.012, 0.025)
 
 PICK_X, PICK_Y, PICK_Z = (0.38, 0.54), (-0.23, 0.23), table.above(0.045, 0.115)
-PUSH_X, PUSH_Y, PUSH_Z = (0.40, 0.58), (-0.08, 0.08), table.above(0.07, 0.10)
+PUSH_X, PUSH_Y, PUSH_Z = (0.40, 0.58), (-0.07, 0.07), table.above(0.07, 0.10)
 PUSH_DELTA = (-0.10, 0.30)
 
 

@@ -246,8 +246,9 @@ def test_a_broom_sweeps_only_what_its_head_meets() -> None:
     adapter = build("sweeping", draw=False)
     adapter.reset(3)
     state = after(adapter, "sweeping", 1)
+    assert abs(state[4]) > 0.005
     toy_x, toy_y = state[3:5]
-    run(adapter, "push", toy_x - 0.075, -0.08 if toy_y > 0 else 0.08, table.HEIGHT + 0.08, -0.5, 0.15)
+    run(adapter, "push", toy_x - 0.075, -0.07 if toy_y > 0 else 0.07, table.HEIGHT + 0.08, -0.5, 0.15)
     assert adapter.observe().state[3:5].tolist() == [toy_x, toy_y]
     run(adapter, "push", toy_x - 0.075, toy_y, table.HEIGHT + 0.08, -0.5, 0.10)
     moved = adapter.observe().state[3:5].tolist()

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from robot_adapters import registry
 from robot_adapters.base import EndReason, Scene, SkillCall
 from robot_adapters.tasks import cooking_hotdog as cooking
 from robot_adapters.tasks import sweeping, table
@@ -133,7 +134,7 @@ def test_only_a_cooked_sausage_in_the_bun_solves(at: Place, latched: frozenset[s
 
 def test_an_episode_remembers_that_the_sausage_was_cooked_until_the_next() -> None:
     now = [scene(sausage=IN_PAN, skillet=STOVE)]
-    episode = Episode(CookingHotdog(), lambda: now[0])
+    episode = Episode(registry.task("cooking_hotdog"), lambda: now[0])
     assert episode.scene().latched == {COOKED}
     now[0] = scene(sausage=RAW, skillet=STOVE)
     assert episode.scene().latched == {COOKED}
@@ -142,7 +143,7 @@ def test_an_episode_remembers_that_the_sausage_was_cooked_until_the_next() -> No
 
 
 def test_two_good_picks_in_vain_need_a_hand() -> None:
-    task = Sweeping()
+    task = registry.task("sweeping")
     start, lifted = scene(broom=BROOM, toy=TOY), scene(broom=BROOM, toy=TOY, held="broom")
     state = task.state(start)
     good, bad = task.true_call(state), SkillCall("pick", (0.5, 0.0, H + 0.08))
