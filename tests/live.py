@@ -80,6 +80,11 @@ class LiveService:
             )
         wait_for(self._ready, "the service to start", START_TIMEOUT)
 
+    def ensure(self) -> None:
+        """Start it if it doesn't run: the test before may have failed after killing it."""
+        if self._process is None or self._process.poll() is not None:
+            self.start()
+
     def _ready(self) -> bool:
         assert self._process is not None
         if self._process.poll() is not None:

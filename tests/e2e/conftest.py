@@ -6,6 +6,7 @@ import contextlib
 from collections.abc import Iterator
 from typing import Any
 
+import httpx
 import pytest
 from playwright.sync_api import Page
 
@@ -17,6 +18,7 @@ from tests.live import LiveService
 def opener(page: Page, service: LiveService) -> Iterator[Opener]:
     """Opens trainer's pages of new experiments, which are finished at the end so that their workers go."""
     made: list[int] = []
+    service.ensure()
 
     def open_page(*, start: bool = True, **fields: Any) -> TrainerPage:
         experiment = service.experiment(**{"adapter": "kinematic", **fields})
@@ -27,5 +29,5 @@ def opener(page: Page, service: LiveService) -> Iterator[Opener]:
 
     yield open_page
     for experiment in made:
-        with contextlib.suppress(AssertionError):  # it may have ended already, or never have started
+        with contextlib.suppress(AssertionError, httpx.TransportError):  # ended already, or its service was killed
             service.post(f"/experiments/{experiment}/finish")

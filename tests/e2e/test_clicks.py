@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from playwright.sync_api import Page, expect
 
-from tests.e2e.trainer import Opener, TrainerPage
+from tests.e2e.trainer import ONE_KEPT, Opener, TrainerPage
 from tests.live import LiveService
 
 BAD_ONLY = {"preset": "stubborn"}
@@ -34,7 +34,7 @@ def test_an_offline_click_is_kept_and_sent_once(opener: Opener) -> None:
     go_offline(trainer)
     trainer.press(-1)
     trainer.press(1)  # judged already: a second press is no second click
-    expect(trainer.connection).to_contain_text("1 click kept")
+    expect(trainer.connection).to_contain_text(ONE_KEPT)
     assert clicks(trainer) == []
     go_online(trainer)
     trainer.drawn(proposal)
@@ -47,7 +47,7 @@ def test_a_kept_click_survives_a_reload_of_the_page(opener: Opener) -> None:
     trainer.service.kill()
     trainer.disconnected()
     trainer.press(0)
-    expect(trainer.connection).to_contain_text("1 click kept")
+    expect(trainer.connection).to_contain_text(ONE_KEPT)
     trainer.service.start()
     trainer.page.reload()
     trainer.connected()

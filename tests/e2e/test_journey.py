@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.e2e.trainer import START_MS, Opener, TrainerPage
+from tests.e2e.trainer import ONE_KEPT, START_MS, Opener, TrainerPage
 from tests.live import LiveService, wait_for
 
 ROBOSUITE = {"adapter": "robosuite", "adapter_settings": {"speed": 1.0}}
@@ -105,7 +105,7 @@ def test_a_killed_server_loses_no_click_and_repeats_no_motion(opener: Opener, se
     service.kill()
     trainer.disconnected()
     trainer.press(-1)
-    expect(trainer.connection).to_contain_text("1 click kept")
+    expect(trainer.connection).to_contain_text(ONE_KEPT)
     service.start()
     trainer.connected()
 

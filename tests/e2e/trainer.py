@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import struct
 from collections.abc import Callable
 from typing import Any
@@ -13,6 +14,9 @@ from tests.live import LiveService
 
 START_MS = 60_000
 """How long the simulator may take to start on a loaded machine."""
+
+ONE_KEPT = re.compile(r"1( click)? kept")
+"""What the connection says while a click waits for it; short on a narrow screen."""
 
 KEYS = {-1: ("3", "ArrowLeft"), 0: ("2", "ArrowDown"), 1: ("1", "ArrowRight")}
 BUTTONS = {-1: "bad", 0: "neutral", 1: "good"}
