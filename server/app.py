@@ -10,6 +10,7 @@ from pathlib import Path
 
 from fastapi import FastAPI, Response
 from fastapi.responses import FileResponse, HTMLResponse, JSONResponse
+from fastapi_offline import FastAPIOffline
 from starlette.convertors import Convertor, register_url_convertor
 
 from server import errors
@@ -45,7 +46,9 @@ def create_app(settings: Settings | None = None, service: Service | None = None)
             await create_first(own)
             yield
 
-    app = FastAPI(
+    # its Swagger page comes with its scripts: a lab without the internet reads it too
+    app = FastAPIOffline(
+        redoc_url=None,
         title="SEED",
         version=version("seed-robot"),
         summary="Train a robot arm by judging the skills it proposes.",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -40,3 +41,15 @@ async def test_the_page_answers_at_its_own_addresses(tmp_path: Path, monkeypatch
         check_problem(await live.http.get("/assets/index-gone.js"), 404)
         check_problem(await live.http.post("/"), 405)
         assert "between us" not in (await live.http.get("/..%2fsecret.txt")).text
+
+
+async def test_the_api_page_needs_nothing_but_the_service(tmp_path: Path) -> None:
+    async with serving(tmp_path / "data") as live:
+        page = await live.http.get("/docs")
+        assert page.status_code == 200
+        addresses = re.findall(r'(?:src|href)="([^"]+)"', page.text)
+        assert any(a.endswith(".js") for a in addresses)
+        assert any(a.endswith(".css") for a in addresses)
+        for address in addresses:
+            assert address.startswith("/")
+            assert (await live.http.get(address)).status_code == 200
