@@ -140,6 +140,7 @@ class Runner:
 
     def dismiss(self) -> None:
         """End the workers once nothing goes on: the experiment is over."""
+        self._evaluating = False
         self._follow(lambda _: self._dismiss())
 
     def leave(self) -> None:

@@ -22,7 +22,10 @@ from server.stream import Rooms
 
 log = logging.getLogger("seed")
 
-FIRST_EXPERIMENT = ExperimentCreate(name="Stacking", task="stacking", adapter="robosuite", preset="paper_sim")
+# real time, so that a person can follow the arm and has time to stop it
+FIRST_EXPERIMENT = ExperimentCreate(
+    name="Stacking", task="stacking", adapter="robosuite", adapter_settings={"speed": 1.0}, preset="paper_sim"
+)
 
 
 class DataDirInUse(ServiceError):
