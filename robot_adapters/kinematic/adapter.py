@@ -30,7 +30,7 @@ from robot_adapters.kinematic.pencil import CALIBRATIONS, HEIGHT, WIDTH
 from robot_adapters.kinematic.picture import Painter, Snapshot
 from robot_adapters.kinematic.world import World
 from robot_adapters.projection import overlay, push_vector
-from robot_adapters.skills import CLOSING_DWELL, CONTACT, DIRECT, OPENING_DWELL, TRANSIT_CLEARANCE
+from robot_adapters.skills import CLOSING_DWELL, CONTACT, DIRECT, OPENING_DWELL, TRANSIT_CLEARANCE, TRANSIT_TOLERANCE
 from robot_adapters.tasks.base import Task
 from robot_adapters.tasks.episode import Episode
 
@@ -214,7 +214,7 @@ def _plan(call: SkillCall, spec: SkillSpec, world: World) -> list[Segment]:
     transit = max(world.table_height + TRANSIT_CLEARANCE, z)
     here = world.gripper
     over: list[Segment] = []
-    if here[2] < transit:
+    if here[2] < transit - TRANSIT_TOLERANCE:
         over.append(Segment("move", (here[0], here[1], transit)))
     over.append(Segment("move", (x, y, transit)))
     down, lift = Segment("move", target, contact=True), Segment("move", (x, y, transit))

@@ -335,3 +335,18 @@ def test_what_a_right_call_is_about_is_drawn_under_its_dot(name: str, camera: st
             around = picture[int(v) - 2 : int(v) + 3, int(u) - 2 : int(u) + 3].reshape(-1, 3).mean(axis=0)
             assert around.max() - around.min() > 30, "table and hand are grey"
         adapter.execute(call, should_stop=lambda: False, on_step=lambda: None)
+
+
+@pytest.mark.parametrize("name", ["sweeping", "collecting_toy", "cooking_hotdog"])
+def test_paced_episodes_end_like_instant_ones(name: str) -> None:
+    task, paced, instant = registry.task(name), build(name, draw=False, step_seconds=1e-4), build(name, draw=False)
+    paced.reset(3)
+    state = instant.reset(3).state
+    for _ in task.subgoals:
+        call = task.true_call(state)
+        results = [
+            adapter.execute(call, should_stop=lambda: False, on_step=lambda: None) for adapter in (paced, instant)
+        ]
+        assert results[0] == results[1]
+        state = instant.observe().state
+        assert np.allclose(paced.observe().state, state, atol=1e-9)

@@ -55,7 +55,7 @@ def test_true_parameters_stack(stacking: RobosuiteAdapter, seed: int) -> None:
 
 def test_a_pick_beside_the_block_grasps_nothing_and_moves_no_block(stacking: RobosuiteAdapter) -> None:
     state = stacking.reset(3).state
-    assert run(stacking, SkillCall("pick", (0.75, 0.2, -0.09))) is EndReason.NOTHING_GRASPED
+    assert run(stacking, SkillCall("pick", (0.68, 0.13, -0.09))) is EndReason.NOTHING_GRASPED
     assert stacking.observe().state == pytest.approx(state, abs=1e-3)
     assert stacking.simulator.scene().held is None
 
@@ -64,7 +64,7 @@ def test_a_stop_in_mid_motion_leaves_the_arm_on_its_way(stacking: RobosuiteAdapt
     stacking.reset(3)
     before = stacking.simulator.low_level_steps
     result = stacking.execute(
-        SkillCall("pick", (0.75, 0.2, -0.09)),
+        SkillCall("pick", (0.68, 0.13, -0.09)),
         should_stop=lambda: stacking.simulator.low_level_steps - before >= 6,
         on_step=lambda: None,
     )
@@ -82,7 +82,7 @@ def test_a_block_pushed_off_the_table_needs_a_hand(stacking: RobosuiteAdapter) -
         stacking.simulator.model.body_jntadr[stacking.simulator.model.body("block_b_main").id]
     )
     stacking.simulator.data.qpos[joint.qposadr[0]] = 0.9  # half a metre past the edge
-    result = stacking.execute(SkillCall("pick", (0.4, 0.2, -0.09)), should_stop=lambda: False, on_step=lambda: None)
+    result = stacking.execute(SkillCall("pick", (0.43, 0.13, -0.09)), should_stop=lambda: False, on_step=lambda: None)
     assert [(v.kind, v.detail) for v in result.violations] == [("manual_reset", "block_b fell off the table")]
     assert not stacking.reset(0).state[5] < STACKING.table_height
 
