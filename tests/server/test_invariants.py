@@ -34,12 +34,12 @@ T = TypeVar("T")
 
 TRAINERS = ("ann", "bob", "cyd")
 EXPERIMENTS = st.sampled_from([0, 1])
-SITUATIONS = ("ready", "open", "refused", "followed", "approved", "moving")
-"""followed: refused, and the next one open on the same observation."""
+SITUATIONS = ("ready", "open", "split", "refused", "followed", "approved", "halted", "moving")
+"""split: one good, one bad. followed: refused, and the next one open on the same observation. halted: once approved."""
 DISTURBANCES = (
     *AFTER,
     *("halt", "rearm", "mode", "episode", "look", "propose", "crash", "crash"),
-    *("click", "click", "click again", "undo", "undo", "undo", "begin", "begin", "end", "time out"),
+    *("click", "click", "click again", *("undo",) * 5, *("begin",) * 4, "end", "time out"),
 )
 
 
@@ -74,15 +74,16 @@ class Machine(RuleBasedStateMachine):
         which=EXPERIMENTS,
         situation=st.sampled_from(SITUATIONS),
         x=st.floats(0.3, 0.8),
-        then=st.lists(st.sampled_from(DISTURBANCES), max_size=5),
+        then=st.lists(st.sampled_from(DISTURBANCES), min_size=1, max_size=6),
         data=st.data(),
     )
     def bring(self, which: int, situation: str, x: float, then: list[str], data: st.DataObject) -> None:
         self._bring(which, situation, x)
         for what in then:
             self._disturb(self.experiments[which], what, data)
+        self._compare(self.experiments[which])
 
-    def _bring(self, which: int, situation: str, x: float) -> None:
+    def _bring(self, which: int, situation: str, x: float) -> None:  # noqa: PLR0912 - one after the other
         model = self.experiments[which]
         if model.lifecycle in ("finished", "archived"):
             made = self._run(created(self._store, aggregation="majority" if model.majority else "first"))
@@ -105,14 +106,16 @@ class Machine(RuleBasedStateMachine):
             self._propose(model, x)
         proposal = model.open_proposal
         assert proposal is not None
-        for trainer in TRAINERS:
-            if situation != "open" and proposal.open:
-                self._click(proposal, self._new_id(), -1 if situation in ("refused", "followed") else 1, trainer)
+        values = {"open": (), "split": (1, -1), "refused": (-1,) * 3, "followed": (-1,) * 3}.get(situation, (1,) * 3)
+        for trainer, value in zip(TRAINERS, values, strict=False):
+            if proposal.open:
+                self._click(proposal, self._new_id(), value, trainer)
         if situation == "followed":
             self._propose(model, x)
+        if situation == "halted":
+            self._halt(model)
         if situation == "moving":
             self._begin(proposal, current=True, inside=True)
-        self._compare(model)
 
     def _disturb(self, model: Experiment, what: str, data: st.DataObject) -> None:  # noqa: PLR0912 - one a line
         # the newest are likelier: an old proposal only ever gives late clicks
@@ -120,8 +123,7 @@ class Machine(RuleBasedStateMachine):
         if what in AFTER:
             self._verb(model, cast(Verb, what))
         elif what == "halt":
-            assert self._run(self._store.halt(model.id)).halted
-            model.halted = True
+            self._halt(model)
         elif what == "rearm":
             self._rearm(model)
         elif what == "mode":
@@ -148,9 +150,8 @@ class Machine(RuleBasedStateMachine):
         elif what == "time out" and proposals:
             self._time_out(data.draw(st.sampled_from(proposals[::-1])))
         elif what == "begin" and proposals:
-            current, inside = data.draw(st.sampled_from([(True, True), (False, True), (True, False)]))
-            self._begin(data.draw(st.sampled_from(proposals[::-1])), current=current, inside=inside)
-        self._compare(model)
+            current, inside = data.draw(st.sampled_from([(True, True), (True, True), (False, True), (True, False)]))
+            self._begin(data.draw(st.sampled_from([proposals[-1], *proposals[::-1]])), current=current, inside=inside)
 
     # --- what may happen --------------------------------------------------------------------------------------------
 
@@ -163,6 +164,10 @@ class Machine(RuleBasedStateMachine):
             model.lifecycle = after
             if verb not in ("start", "resume"):
                 self._close_open(model)
+
+    def _halt(self, model: Experiment) -> None:
+        assert self._run(self._store.halt(model.id)).halted
+        model.halted = True
 
     def _rearm(self, model: Experiment) -> None:
         self._expect(model.halted, self._store.rearm(model.id))
@@ -229,6 +234,8 @@ class Machine(RuleBasedStateMachine):
             and all(p.execution is None and p.observation == judged.observation for p in since)
         )
         undone = self._expect(legal, self._store.undo_feedback(chosen.id))
+        if judged.execution is not None and model.at_work and chosen in counted[-1:]:
+            self.seen["undo after a motion"] += 1
         if undone is None:
             return
         withdrawn = model.open_proposal if model.open_proposal is not judged else None
@@ -259,7 +266,7 @@ class Machine(RuleBasedStateMachine):
             and current
             and inside
         )
-        self.seen["moved" if may else "gate shut"] += 1
+        self.seen["moved" if may else decision.reason] += 1
         assert decision.allowed == may
         assert (execution is not None) == may
         proposal.decided |= asked
@@ -374,21 +381,19 @@ def test_no_sequence_of_clicks_verbs_and_crashes_breaks_an_invariant() -> None:
     run_state_machine_as_test(
         Machine,
         settings=settings(
-            max_examples=35,
+            max_examples=20,
             stateful_step_count=12,
             deadline=None,
             derandomize=True,  # the same sequences every time; change the numbers to look further
             suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
         ),
     )
-    happened = (
-        "click",
-        "late click",
-        "same click again",
-        "undone",
-        "withdrawn",
-        "moved",
-        "gate shut",
-        "crash while moving",
+    happened = ("click", "late click", "same click again", "undone", "withdrawn", "moved", "crash while moving")
+    shut = (
+        "undo after a motion",
+        "the emergency stop is latched",
+        "no verdict",
+        "the verdict is bad",
+        "it was executed already",
     )
-    assert all(Machine.seen[what] >= 3 for what in happened), Machine.seen
+    assert all(Machine.seen[what] >= 2 for what in happened + shut), Machine.seen
