@@ -1,0 +1,111 @@
+"""The compiled control step beside robosuite's own: the same physics, set-point by set-point, in every task."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from robot_adapters.base import Array, Unavailable
+from robot_adapters.registry import task
+from robot_adapters.robosuite import FACTORY, RobosuiteSettings
+from robot_adapters.robosuite.adapter import RobosuiteAdapter
+from tests.robot_adapters.robosuite.conftest import build
+
+TASKS = sorted(FACTORY.tasks)
+SAME = 1e-9  # m, rad, and those a second; measured 2e-12 at most
+FINGERS_MEET = 0.002  # m
+
+
+def solve(adapter: RobosuiteAdapter, name: str) -> list[Array]:
+    """Positions and velocities after every set-point of what solves the task, from two starts.
+
+    Once the empty fingers meet they leave the rest of the episode out: of two boxes that touch face to face, MuJoCo
+    chooses the points of contact by the last bit.
+    """
+    staged, simulator, seen = task(name), adapter.simulator, list[Array]()
+    for seed in (1, 2):
+        adapter.reset(seed)
+        met = False
+
+        def record() -> None:
+            nonlocal met
+            met = met or simulator.gripper_width() < FINGERS_MEET
+            if not met:
+                seen.append(np.concatenate([simulator.data.qpos, simulator.data.qvel]))
+
+        for _ in range(staged.horizon):
+            call = staged.true_call(adapter.observe().state)
+            if adapter.execute(call, should_stop=lambda: False, on_step=record).success:
+                break
+        assert adapter.success()
+    return seen
+
+
+def wander(adapter: RobosuiteAdapter) -> list[Array]:
+    """Positions and velocities after each of 240 set-points that go here and there, turning."""
+    adapter.reset(3)
+    simulator, rng, seen = adapter.simulator, np.random.default_rng(0), list[Array]()
+    low, high = np.array([0.40, -0.2, simulator.table_height + 0.02]), np.array([0.65, 0.2, 0.2])
+    target, yaw = simulator.pose()
+    for i in range(240):
+        if i % 6 == 0:
+            target, yaw = np.clip(target + rng.uniform(-0.06, 0.06, 3), low, high), rng.uniform(-0.5, 0.5)
+        simulator.step(target, yaw, gripper_closed=False)
+        seen.append(np.concatenate([simulator.data.qpos, simulator.data.qvel]))
+    return seen
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_both_ways_of_stepping_move_everything_alike(name: str) -> None:
+    native, reference = build(name), FACTORY(name, RobosuiteSettings(stepping="reference"))
+    assert isinstance(reference, RobosuiteAdapter)
+    moves: tuple[Callable[[RobosuiteAdapter], list[Array]], ...] = (lambda adapter: solve(adapter, name), wander)
+    try:
+        for move in moves:
+            ours, theirs = move(native), move(reference)
+            assert len(ours) == len(theirs)
+            assert max(float(np.abs(a - b).max()) for a, b in zip(ours, theirs, strict=True)) < SAME
+            assert all((a != b).any() for a, b in pairwise(ours))
+    finally:
+        native.close()
+        reference.close()
+
+
+def test_stepping_is_a_setting_that_the_adapter_tells(stacking: RobosuiteAdapter) -> None:
+    assert stacking.info.details["stepping"] == "native"
+    assert RobosuiteSettings(stepping="reference").stepping == "reference"
+    with pytest.raises(ValueError, match="stepping"):
+        RobosuiteSettings.model_validate({"stepping": "by hand"})
+
+
+def test_a_controller_that_it_does_not_know_is_refused(stacking: RobosuiteAdapter) -> None:
+    # here and not above: MuJoCo binds to its OpenGL at import, which the adapter has chosen
+    from robot_adapters.robosuite.scene import Tabletop  # noqa: PLC0415
+    from robot_adapters.robosuite.stepping import ARM, NativeStepping  # noqa: PLC0415
+
+    env = Tabletop(())
+    native = NativeStepping(env)
+    env.robots[0].part_controllers[ARM].impedance_mode = "variable"
+    with pytest.raises(Unavailable, match="impedance_mode='variable'") as refused:
+        native.bind()
+    assert refused.value.remedy == "set stepping to reference"
+    env.sim.model._model.opt.timestep = 0.004
+    with pytest.raises(ValueError, match=r"0\.05 s isn't a multiple of 0\.004 s"):
+        NativeStepping(env)
+    env.close()
+
+
+def test_a_direction_without_mobility_gets_no_force(stacking: RobosuiteAdapter) -> None:
+    from robot_adapters.robosuite.control_step import _factorise, _solve  # noqa: PLC0415
+
+    rng = np.random.default_rng(0)
+    half = rng.normal(size=(6, 7))
+    regular, singular = half @ half.T, np.diag([4.0, 0.0, 2.0])
+    for matrix, force in ((regular, rng.normal(size=6)), (singular, np.array([1.0, 5.0, 1.0]))):
+        factor, solved = np.zeros_like(matrix), force.copy()
+        _factorise(matrix, factor, len(matrix))
+        _solve(factor, solved, len(solved))
+        assert solved == pytest.approx(np.linalg.pinv(matrix) @ force, rel=1e-9)
