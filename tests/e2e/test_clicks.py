@@ -51,8 +51,8 @@ def test_a_kept_click_survives_a_reload_of_the_page(opener: Opener) -> None:
     trainer.service.start()
     trainer.page.reload()
     trainer.connected()
-    expect(trainer.connection).to_have_text("Connected")
-    # The restart had closed the proposal: the click is there, and says that it came late.
+    # The restart had closed the proposal: the click is stored, and the page says that it came late.
+    expect(trainer.notices).to_contain_text("came too late")
     assert clicks(trainer) == [(proposal, 0, "late")]
 
 
