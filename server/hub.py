@@ -194,9 +194,6 @@ class Hub:
             runner = await self._runner(experiment_id)
             runner.stop()
         runner.changed(experiment)
-        if experiment.lifecycle is Lifecycle.RUNNING:
-            experiment = await self.store.transition(experiment_id, "pause")
-            runner.changed(experiment)
         await runner.desk.withdraw()
         return runner.experiment
 

@@ -21,7 +21,7 @@ TABLE: dict[Verb, dict[Lifecycle, Lifecycle]] = {
     "fail": {Lifecycle.RUNNING: Lifecycle.FAILED},
     "reset": {state: state for state in (Lifecycle.RUNNING, Lifecycle.PAUSED)},
     "evaluate": {state: state for state in (Lifecycle.CREATED, Lifecycle.PAUSED, Lifecycle.FINISHED)},
-    "halt": {state: state for state in Lifecycle},
+    "halt": {state: state for state in Lifecycle} | {Lifecycle.RUNNING: Lifecycle.PAUSED},
     "rearm": {state: state for state in Lifecycle},
 }
 """Verb -> state before -> state after. A state that is missing refuses the verb."""

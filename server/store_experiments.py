@@ -18,6 +18,7 @@ LEAVING: dict[str, schemas.CloseReason] = {
     "finish": schemas.CloseReason.WITHDRAWN,
     "fail": schemas.CloseReason.INTERRUPTED,
     "reset": schemas.CloseReason.WITHDRAWN,
+    "halt": schemas.CloseReason.WITHDRAWN,
 }
 """Verbs after which an open proposal can't be answered any more: it is closed in the same transaction."""
 

@@ -117,6 +117,15 @@ async def test_halt_stops_the_arm_and_stays_latched(tmp_path: Path) -> None:
         assert (await s.seen.next(ExecutionEnded, at)).execution.outcome is not ExecutionOutcome.STOPPED
 
 
+async def test_halts_that_come_together_are_all_taken(tmp_path: Path) -> None:
+    async with stage(tmp_path) as s:
+        experiment = await s.experiment()
+        await s.hub.act(experiment.id, "start")
+        await s.proposal()
+        halted = await asyncio.gather(*(s.hub.act(experiment.id, "halt") for _ in range(5)))
+        assert {(h.halted, h.lifecycle) for h in halted} == {(True, Lifecycle.PAUSED)}
+
+
 async def test_halt_works_before_anything_runs_and_while_workers_start(tmp_path: Path) -> None:
     async with stage(tmp_path) as s:
         created = await s.experiment()

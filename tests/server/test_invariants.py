@@ -168,6 +168,9 @@ class Machine(RuleBasedStateMachine):
     def _halt(self, model: Experiment) -> None:
         assert self._run(self._store.halt(model.id)).halted
         model.halted = True
+        if model.lifecycle == "running":
+            model.lifecycle = "paused"
+        self._close_open(model)
 
     def _rearm(self, model: Experiment) -> None:
         self._expect(model.halted, self._store.rearm(model.id))

@@ -17,7 +17,7 @@ VERBS: tuple[Verb, ...] = get_args(Verb)
 # state: verb -> state, for an experiment that isn't halted; what isn't here is illegal
 EXPECTED = {
     "created": {"start": "running", "archive": "archived", "evaluate": "created"},
-    "running": {"pause": "paused", "finish": "finished", "fail": "failed", "reset": "running"},
+    "running": {"halt": "paused", "pause": "paused", "finish": "finished", "fail": "failed", "reset": "running"},
     "paused": {"resume": "running", "finish": "finished", "reset": "paused", "evaluate": "paused"},
     "finished": {"archive": "archived", "evaluate": "finished"},
     "failed": {"start": "running", "resume": "running", "archive": "archived"},
@@ -28,7 +28,7 @@ MOVING = {"start", "resume", "reset", "evaluate"}
 
 @pytest.mark.parametrize(("state", "verb"), list(itertools.product(Lifecycle, VERBS)))
 def test_every_verb_in_every_state(state: Lifecycle, verb: Verb) -> None:
-    expected = {**EXPECTED[state.value], "halt": state.value}
+    expected = {"halt": state.value, **EXPECTED[state.value]}
     if verb in expected:
         after = lifecycle.apply(State(state), verb)
         assert after == State(Lifecycle(expected[verb]), halted=verb == "halt")
@@ -43,7 +43,7 @@ def test_every_verb_in_every_state(state: Lifecycle, verb: Verb) -> None:
 @pytest.mark.parametrize(("state", "verb"), list(itertools.product(Lifecycle, VERBS)))
 def test_nothing_but_rearm_ends_a_halt_and_nothing_moves_meanwhile(state: Lifecycle, verb: Verb) -> None:
     expected = {verb: after for verb, after in EXPECTED[state.value].items() if verb not in MOVING}
-    expected |= {"halt": state.value, "rearm": state.value}
+    expected = {"halt": state.value, **expected, "rearm": state.value}
     if verb in expected:
         after = lifecycle.apply(State(state, halted=True), verb)
         assert after == State(Lifecycle(expected[verb]), halted=verb != "rearm")

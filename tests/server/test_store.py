@@ -61,7 +61,7 @@ async def test_a_halt_is_latched_until_it_is_rearmed(store: Store) -> None:
     assert (await store.halt(experiment_id)).halted  # a stop is never refused
     with pytest.raises(Conflict, match="halted"):
         await opened(store, experiment_id)
-    await store.transition(experiment_id, "pause")
+    assert (await store.experiment(experiment_id)).lifecycle is Lifecycle.PAUSED
     with pytest.raises(Conflict, match="halted") as caught:
         await store.transition(experiment_id, "resume")
     assert "rearm" in caught.value.allowed
@@ -208,6 +208,7 @@ async def test_the_gate_reads_the_stored_state_anew(store: Store) -> None:
         reasons.append(decision.reason)
         if act == "halt":
             await store.rearm(experiment_id)
+            await store.transition(experiment_id, "resume")
         await store.update_experiment(experiment_id, ExperimentUpdate(mode=Mode.EXECUTE_APPROVED))
     assert reasons == ["the emergency stop is latched", "the mode is propose only", "the experiment is paused"]
 
