@@ -12,6 +12,7 @@ import type {
   Problem,
   Proposal,
   TaskInfo,
+  TeacherInfo,
   Verb,
 } from "./wire";
 
@@ -78,7 +79,7 @@ export interface Catalogue {
   tasks: TaskInfo[];
   adapters: AdapterInfo[];
   algorithms: AlgorithmInfo[];
-  teachers: string[];
+  teachers: TeacherInfo[];
 }
 
 export const adapterList = () => list<AdapterInfo>("/adapters");
@@ -88,7 +89,7 @@ export async function catalogue(): Promise<Catalogue> {
     list<TaskInfo>("/tasks"),
     adapterList(),
     list<AlgorithmInfo>("/algorithms"),
-    list<string>("/teachers"),
+    list<TeacherInfo>("/teachers"),
   ]);
   return { tasks, adapters, algorithms, teachers };
 }

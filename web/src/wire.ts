@@ -19,6 +19,7 @@ export type Evaluation = Schemas["Evaluation"];
 export type TaskInfo = Schemas["TaskInfo"];
 export type AdapterInfo = Schemas["AdapterInfo"];
 export type AlgorithmInfo = Schemas["AlgorithmInfo"];
+export type TeacherInfo = Schemas["TeacherInfo"];
 export type Problem = Schemas["Problem"];
 export type FrameHeader = Schemas["FrameHeader"];
 

@@ -5,6 +5,11 @@ export function goodShare({ feedback, good }: { feedback: number; good: number }
   return feedback === 0 ? "–" : `${Math.round((100 * good) / feedback)} %`;
 }
 
+/** Violations over decision steps, which are proposals that were judged. */
+export function violationRatio({ feedback, violations }: { feedback: number; violations: number }): string {
+  return feedback === 0 ? "–" : `${((100 * violations) / feedback).toFixed(1)} %`;
+}
+
 export function Counters({ counters }: { counters: Experiment["counters"] }) {
   return (
     <section className="card" aria-label="Counters">
@@ -25,6 +30,9 @@ export function Counters({ counters }: { counters: Experiment["counters"] }) {
           <dt>Safety violations</dt>
           <dd data-testid="count-violations" className={counters.violations > 0 ? "alarm" : undefined}>
             {counters.violations}
+          </dd>
+          <dd data-testid="violation-ratio" className="note">
+            <small>{`${violationRatio(counters)} of decisions`}</small>
           </dd>
         </div>
       </dl>

@@ -22,7 +22,7 @@ export interface JudgeBarProps {
 }
 
 function typing(target: EventTarget | null): boolean {
-  return target instanceof HTMLElement && target.matches("input, select, textarea, [contenteditable]");
+  return target instanceof HTMLElement && target.matches("input:not([type=radio]), select, textarea, [contenteditable]");
 }
 
 function useJudgeKeys(props: JudgeBarProps): void {

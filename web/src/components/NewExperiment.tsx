@@ -155,7 +155,7 @@ function NewForm({
         value={draft.teacher}
         options={[
           { value: "", label: "you" },
-          ...catalogue.teachers.map((name) => ({ value: name, label: `${name} teacher` })),
+          ...catalogue.teachers.map(({ name }) => ({ value: name, label: `${name} teacher` })),
         ]}
         error={error("teacher")}
         onChange={(teacher) => set({ teacher })}
