@@ -15,17 +15,21 @@ from robot_adapters.base import Array, EndReason, SkillCall, SkillSpec, StepHook
 from robot_adapters.projection import closing_direction, push_vector
 
 STEP_CAP = 0.10  # m from the present pose to a set-point; measured: 0.6 m/s at most under kp 150
+DESCENT_CAP = 0.06  # m, likewise on the way down, where something may be met before the target
+PUSH_CAP = 0.013  # m, likewise while pushing: 0.08 m/s, and what blocks the way meets less than 100 N. Measured
 OFF_LINE = 0.012  # m aside of the line at which the arm waits until it is back on it: a fast descent drags it aside
 YAW_CAP = 0.5  # rad, likewise
 TRANSIT_TOLERANCE = 0.03  # m; a waypoint that is only passed. Measured
 FINE_TOLERANCE = 0.003  # m; a waypoint where the fingers act. Measured
 YAW_TOLERANCE = 0.05  # rad, before a descent
 SEGMENT_LIMIT = 120  # set-points to one waypoint (6 s at 20 Hz)
-STALL_STEPS = 10  # set-points without progress before the skill gives up
+STALL_STEPS = 10  # set-points without progress, the arm at rest, before the skill gives up
 PROGRESS = 0.0005  # m nearer (or as many rad times 0.1 m of lever) that count as progress
+AT_REST = 0.001  # m in one set-point; the elbow's slow swing may take the hand aside and back. Measured
 CONTACT = 0.02  # m; stalling this near where the fingers act means something is touched: they act all the same
 CLOSING_DWELL = 5  # set-points until the fingers hold. Measured
 OPENING_DWELL = 3  # set-points until a block is free. Measured
+BRAKING = 4  # set-points that hold still after an overload: 0.6 m/s is gone in 0.2 s
 LOWEST = 0.010  # m above the table for the grip site: the fingertips hang 9 mm lower
 TRANSIT_CLEARANCE = 0.17  # m above the table: a held block passes over a stack of two
 DIRECT = 0.05  # m to the side: a shorter reach needs no detour over the transit height
@@ -152,7 +156,7 @@ class _Motion:
         """Open above `target`, descend, close, lift."""
         self.closed = False
         self._above(target)
-        self._line(target, FINE_TOLERANCE, contact=True)
+        self._line(target, FINE_TOLERANCE, cap=DESCENT_CAP, contact=True)
         self.fingers(closed=True)
         self._lift()
         if self.arm.gripper_width() < GRASPED_WIDTH:
@@ -161,7 +165,7 @@ class _Motion:
     def place(self, target: Array) -> None:
         """Carry to above `target`, descend, open, lift."""
         self._above(target)
-        self._line(target, FINE_TOLERANCE, contact=True)
+        self._line(target, FINE_TOLERANCE, cap=DESCENT_CAP, contact=True)
         self.fingers(closed=False)
         self._lift()
 
@@ -169,8 +173,9 @@ class _Motion:
         """Descend with closed fingers at `start`, move along `by`, lift."""
         self.closed = True
         self._above(start)
-        self._line(start, FINE_TOLERANCE)
-        self._line(start + by, FINE_TOLERANCE)
+        # a tool in the hand may stand on the table before the grip site is where it should be
+        self._line(start, FINE_TOLERANCE, cap=DESCENT_CAP, contact=True)
+        self._line(start + by, FINE_TOLERANCE, cap=PUSH_CAP, contact=True, level=True)
         self._lift()
 
     def fingers(self, *, closed: bool) -> None:
@@ -196,24 +201,42 @@ class _Motion:
         height = max(self.arm.table_height + TRANSIT_CLEARANCE, float(here[2]))
         self._line(np.array([here[0], here[1], height]), TRANSIT_TOLERANCE)
 
-    def _line(self, target: Array, tolerance: float, *, turned: bool = False, contact: bool = False) -> None:
+    def _line(
+        self,
+        target: Array,
+        tolerance: float,
+        *,
+        cap: float = STEP_CAP,
+        turned: bool = False,
+        contact: bool = False,
+        level: bool = False,
+    ) -> None:
         """Move straight to `target` (3,) until within `tolerance` m (and the yaw's, if `turned`).
+
+        With `level`, what is missing in height counts only beyond `CONTACT`: something may hold the arm up.
 
         Raises:
             _Ended: stopped, timed out, or stalled (with `contact`: farther than `CONTACT` from the target).
         """
         best, since = math.inf, 0
         start, _ = self.arm.pose()
+        before = start
         length = max(_norm(target - start), 1e-9)
         along = (target - start) / length
         for _ in range(SEGMENT_LIMIT):
             here, yaw = self.arm.pose()
             away, turn = target - here, _wrap(self.yaw - yaw)
+            if level and abs(away[2]) <= CONTACT:
+                away[2] = 0.0
             distance = _norm(away)
             if distance <= tolerance and not (turned and abs(turn) > YAW_TOLERANCE):
                 return
             left = distance + (0.1 * abs(turn) if turned else 0.0)
-            best, since = (left, 0) if left < best - PROGRESS else (best, since + 1)
+            if left < best - PROGRESS:
+                best, since = left, 0
+            elif _norm(here - before) < AT_REST:
+                since += 1
+            before = here
             if since >= STALL_STEPS:
                 if contact and distance <= CONTACT:
                     return
@@ -221,8 +244,8 @@ class _Motion:
             # on the line and not from here towards the target, so that whatever drives the arm aside is corrected
             done = max(0.0, float((here - start) @ along))
             aside = _norm(here - start - done * along)
-            ahead = min(length, done + STEP_CAP * max(0.0, 1.0 - aside / OFF_LINE))
-            self._set_point(start + ahead * along, yaw + float(np.clip(turn, -YAW_CAP, YAW_CAP)))
+            ahead = min(length, done + cap * max(0.0, 1.0 - aside / OFF_LINE))
+            self._set_point(start + ahead * along, yaw + min(max(turn, -YAW_CAP), YAW_CAP))
         raise _Ended(EndReason.TIMEOUT)
 
     def _set_point(self, target: Array, yaw: float) -> None:
@@ -236,11 +259,20 @@ class _Motion:
         if stop:
             raise _Ended(EndReason.STOPPED)
         if self.arm.overload() is not None:
+            self._brake()
             raise _Ended(EndReason.FORCE_LIMIT)
+
+    def _brake(self) -> None:
+        """Hold still until the arm has stopped and presses against nothing."""
+        here, yaw = self.arm.pose()
+        for _ in range(BRAKING):
+            self.arm.step(here, yaw, self.closed)
+            self.steps += 1
+            self.on_step()
 
 
 def _norm(vector: Array) -> float:
-    return float(np.linalg.norm(vector))
+    return math.sqrt(vector.dot(vector))
 
 
 def _wrap(angle: float) -> float:

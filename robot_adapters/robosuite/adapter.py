@@ -12,7 +12,9 @@ from robot_adapters.base import (
     AdapterInfo,
     CameraFrame,
     CameraOverlay,
+    EndReason,
     Observation,
+    SafetyViolation,
     SkillCall,
     SkillResult,
     SkillSpec,
@@ -25,6 +27,7 @@ from robot_adapters.robosuite import RobosuiteSettings
 from robot_adapters.robosuite.graphics import choose_backend, load_robosuite
 from robot_adapters.skills import clear_yaw, run_skill
 from robot_adapters.tasks.base import Task
+from robot_adapters.tasks.episode import Episode
 
 
 class RobosuiteAdapter:
@@ -41,21 +44,29 @@ class RobosuiteAdapter:
         # only now: MuJoCo binds to its OpenGL at import
         from robot_adapters.robosuite.cameras import HEIGHT, WIDTH, Cameras  # noqa: PLC0415
         from robot_adapters.robosuite.scene import CAMERAS, CONTROL_HZ  # noqa: PLC0415
+        from robot_adapters.robosuite.scenes import find  # noqa: PLC0415
         from robot_adapters.robosuite.simulator import Simulator  # noqa: PLC0415
 
         self._task = task
         self._settings = settings
-        self.simulator = Simulator(task.objects)
+        self.simulator = Simulator(task.objects, settings.stepping, find(task.name))
         self.cameras = Cameras(self.simulator.model, self.simulator.data)
         self._calibrations = {name: self.cameras.calibration(name) for name in CAMERAS}
         self._observation: Observation | None = None
+        self._episode = Episode(task, self.simulator.scene)
         self.info = AdapterInfo(
             name="robosuite",
             simulated=True,
             cameras=tuple(CAMERAS),
             image_size=(WIDTH, HEIGHT),
             control_hz=float(CONTROL_HZ),
-            details={"graphics": backend, "graphics_chosen_by": chosen_by, "robot": "Panda", "controller": "OSC_POSE"},
+            details={
+                "graphics": backend,
+                "graphics_chosen_by": chosen_by,
+                "robot": "Panda",
+                "controller": "OSC_POSE",
+                "stepping": settings.stepping,
+            },
         )
         self.reset(0)
 
@@ -63,6 +74,7 @@ class RobosuiteAdapter:
         """Start an episode; the same seed gives the same start. None draws a fresh one."""
         rng = np.random.default_rng(seed)
         self._observation = None
+        self._episode.reset()
         self.simulator.reset(self._task.sample_layout(rng), rng)
         return self.observe()
 
@@ -70,7 +82,7 @@ class RobosuiteAdapter:
         """State and images now. As long as nothing has moved it is the same observation, rendered once."""
         if self._observation is None:
             frames = {name: self.cameras.frame(name, self._settings.jpeg_quality) for name in self.info.cameras}
-            state = self._task.state(self.simulator.scene())
+            state = self._task.state(self._episode.scene())
             self._observation = Observation(uuid.uuid4().hex, state, frames, time.time())
         return self._observation
 
@@ -81,14 +93,19 @@ class RobosuiteAdapter:
             InvalidCall: the call doesn't fit the task. Nothing has moved.
         """
         spec = check_call(call, self._task.skills)
+        before = self._observation.state if self._observation else self._task.state(self._episode.scene())
         self._observation = None
         if self._settings.speed > 0:
             on_step = paced(on_step, 1.0 / (self.info.control_hz * self._settings.speed))
+        self.simulator.damage = None
         end, steps = run_skill(
             self.simulator, call, spec, should_stop=should_stop, on_step=on_step, yaw=self._yaw(call, spec)
         )
-        scene = self.simulator.scene()
-        return SkillResult(end, steps, self._task.success(scene), self._task.violations(scene))
+        scene = self._episode.scene()
+        violations = self._episode.executed(before, call, end, scene)
+        if end is EndReason.FORCE_LIMIT and self.simulator.damage is not None:
+            violations = (SafetyViolation("damage", self.simulator.damage), *violations)
+        return SkillResult(end, steps, self._task.success(scene), violations)
 
     def overlays(self, call: SkillCall) -> Mapping[str, CameraOverlay]:
         """The call drawn for every camera, with the yaw that the gripper would take.
@@ -109,7 +126,7 @@ class RobosuiteAdapter:
 
     def success(self) -> bool:
         """Whether the task is solved now."""
-        return self._task.success(self.simulator.scene())
+        return self._task.success(self._episode.scene())
 
     def close(self) -> None:
         """Release simulator and graphics."""

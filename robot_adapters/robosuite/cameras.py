@@ -17,8 +17,9 @@ from PIL import Image
 
 from robot_adapters.base import CameraCalibration, CameraFrame, Unavailable
 from robot_adapters.projection import intrinsics
+from robot_adapters.robosuite.frames import BASE
 from robot_adapters.robosuite.graphics import BACKENDS, remedy
-from robot_adapters.robosuite.scene import BASE, CAMERAS
+from robot_adapters.robosuite.scene import CAMERAS
 
 WIDTH, HEIGHT = 640, 480
 

@@ -15,16 +15,13 @@ from robosuite.models.tasks import ManipulationTask
 from robosuite.utils.mjcf_utils import new_geom, new_site
 
 from robot_adapters.base import Array
+from robot_adapters.robosuite.frames import BASE, TABLE
+from robot_adapters.robosuite.scenes import Build
 from robot_adapters.tasks.base import ObjectSpec
-
-BASE = np.array([-0.56, 0.0, 0.912])
-"""(3,) the robot's base, m, robosuite world frame; the axes are parallel."""
-
-TABLE = 0.8
-"""z of the table, m, robosuite world frame."""
 
 CONTROL_HZ = 20
 OPEN = np.array([0.04, -0.04])  # finger joints, m
+UPRIGHT = (1.0, 0.0, 0.0, 0.0)  # quaternion
 
 # left and right of the robot, like the paper's page, where the arm hides little of the table
 CAMERAS: Mapping[str, tuple[float, float, float]] = {"left": (0.80, 0.58, 1.50), "right": (0.80, -0.58, 1.50)}
@@ -40,13 +37,14 @@ FLOOR = [0.62, 0.65, 0.68, 1.0]
 
 
 class Tabletop(ManipulationEnv):  # type: ignore[misc]
-    """robosuite environment of any task whose objects are blocks and areas. Positions are in the world frame here.
+    """robosuite environment of any task: its blocks and areas, or what its scene builds. Positions in the world frame.
 
-    Instead of sampling, a reset puts things where `layout` says: block name -> (3,) m, and the arm's joints (7,) rad.
+    Instead of sampling, a reset puts things where `layout` says: object -> (3,) m, slider -> (1,) m from closed.
     """
 
-    def __init__(self, objects: tuple[ObjectSpec, ...]) -> None:
+    def __init__(self, objects: tuple[ObjectSpec, ...], build: Build | None = None) -> None:
         self.specs = objects
+        self.build = build
         self.layout: dict[str, Array] = {}
         self.blocks: dict[str, Any] = {}
         controller = load_composite_controller_config(robot="Panda")
@@ -81,11 +79,11 @@ class Tabletop(ManipulationEnv):  # type: ignore[misc]
             arena.set_camera(name, pos=eye, quat=facing, camera_attribs={"fovy": str(FIELD_OF_VIEW)})
         self.blocks = {}
         for spec in self.specs:
-            if spec.shape == "block":
+            if spec.shape == "block" and self.build is None:
                 self.blocks[spec.name] = BoxObject(
                     name=spec.name, size=[spec.half_size] * 3, rgba=[*spec.colour, 1.0], rng=self.rng
                 )
-            elif spec.fixed is not None:
+            elif spec.shape == "area" and spec.fixed is not None:
                 # a site is drawn and touches nothing
                 arena.worldbody.append(
                     new_site(
@@ -100,6 +98,8 @@ class Tabletop(ManipulationEnv):  # type: ignore[misc]
         self.model = ManipulationTask(
             mujoco_arena=arena, mujoco_robots=[robot], mujoco_objects=list(self.blocks.values())
         )
+        if self.build is not None:
+            self.model.worldbody.extend(self.build({spec.name: spec for spec in self.specs}))
 
     def _setup_references(self) -> None:
         super()._setup_references()
@@ -114,9 +114,20 @@ class Tabletop(ManipulationEnv):  # type: ignore[misc]
         # before, robosuite has put the arm at `init_qpos` and made controllers that refer to it
         robot = self.robots[0]
         self.sim.data.qpos[robot._ref_gripper_joint_pos_indexes["right"]] = OPEN
-        for name, block in self.blocks.items():
-            if name in self.layout:
-                self.sim.data.set_joint_qpos(block.joints[0], np.concatenate([self.layout[name], [1.0, 0.0, 0.0, 0.0]]))
+        for spec in self.specs:
+            if spec.name not in self.layout:
+                continue
+            at = self.layout[spec.name]
+            joint = self.body(spec.name).jntadr[0]
+            start = self.sim.model._model.jnt_qposadr[joint]
+            # an upright object where it belongs, or a slider so far from closed
+            pose = np.concatenate([at, UPRIGHT]) if spec.movable else at
+            self.sim.data.qpos[start : start + len(pose)] = pose
+
+    def body(self, name: str) -> Any:
+        """MuJoCo's view of the body that is the object of this name."""
+        block = self.blocks.get(name)
+        return self.sim.model._model.body(name if block is None else block.root_body)
 
 
 def _simplify(arena: TableArena) -> None:

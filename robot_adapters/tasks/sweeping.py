@@ -15,11 +15,12 @@ from robot_adapters.tasks.rules import misplaced
 BROOM, TOY, PAN = "broom", "toy", "dustpan"
 YELLOW, BLUE, PINK, GREEN = (0.96, 0.78, 0.12), (0.13, 0.36, 0.85), (0.95, 0.38, 0.66), (0.13, 0.62, 0.30)
 
-# The broom stands by itself: a wide head and, upright on it, a flat handle that ends below the hand's palm (45 mm
-# above the grip site). Its origin is the grasp site on the handle
+# The broom stands by itself: a wide head and, upright on it, a flat handle. It ends where fingers that close 15 mm
+# too high still hold it, and the palm (31 mm above the grip site) of a hand 20 mm too low only touches it. Its origin
+# is the grasp site on the handle
 GRASP_HEIGHT = 0.08
 HEAD_HALF: Vector = (0.02, 0.05, 0.015)
-HANDLE_HALF: Vector = (0.012, 0.015, 0.035)
+HANDLE_HALF: Vector = (0.012, 0.015, 0.033)
 HEAD = Part((0.0, 0.0, HEAD_HALF[2] - GRASP_HEIGHT), HEAD_HALF, YELLOW)
 HANDLE = Part((0.0, 0.0, 2 * HEAD_HALF[2] + HANDLE_HALF[2] - GRASP_HEIGHT), HANDLE_HALF, BLUE)
 BROOM_TOP = 2 * HEAD_HALF[2] + 2 * HANDLE_HALF[2] - GRASP_HEIGHT

@@ -10,7 +10,7 @@ import pytest
 
 from robot_adapters import skills
 from robot_adapters.base import Array, EndReason, ParameterSpec, SkillCall, SkillSpec
-from robot_adapters.skills import clear_yaw, run_skill
+from robot_adapters.skills import BRAKING, clear_yaw, run_skill
 
 TABLE = -0.1
 START = np.array([0.4, -0.1, 0.1])
@@ -18,13 +18,17 @@ XYZ = ("x", "y", "z")
 
 
 class IdealArm:
-    """Goes a share of the way to each set-point; a floor stops it, and `grip` is what its fingers close on, m."""
+    """Goes a share of the way to each set-point; a floor stops it, `grip` is what its fingers close on, m.
+
+    From set-point number `limit` on, a force is over its limit.
+    """
 
     table_height = TABLE
 
-    def __init__(self, *, share: float = 0.6, floor: float = -math.inf, grip: float = 0.04) -> None:
+    def __init__(self, *, share: float = 0.6, floor: float = -math.inf, grip: float = 0.04,
+                 limit: int | None = None) -> None:  # fmt: skip
         self.at, self.yaw, self.closed = START.copy(), 0.0, False
-        self.share, self.floor, self.grip = share, floor, grip
+        self.share, self.floor, self.grip, self.limit = share, floor, grip, limit
         self.set_points: list[tuple[Array, float, bool]] = []
         self.path: list[Array] = []
 
@@ -44,6 +48,9 @@ class IdealArm:
         self.yaw += self.share * (yaw - self.yaw)
         self.closed = gripper_closed
         self.path.append(self.at.copy())
+
+    def overload(self) -> str | None:
+        return "too much" if self.limit is not None and len(self.path) >= self.limit else None
 
 
 def spec(name: str, *names: str) -> SkillSpec:
@@ -195,3 +202,19 @@ def test_the_fingers_turn_away_from_a_neighbour(neighbour: tuple[float, float], 
 
 def test_without_neighbours_the_gripper_is_straight() -> None:
     assert clear_yaw(np.array([0.6, 0.0, 0.0]), []) == 0.0
+
+
+def test_an_overload_ends_the_skill_and_the_arm_brakes() -> None:
+    arm = IdealArm(limit=3)
+    end, steps = run(arm, "reach", 0.5, 0.1, 0.2)
+    assert end is EndReason.FORCE_LIMIT
+    assert steps == len(arm.set_points) == 3 + BRAKING
+    held = arm.path[2]
+    assert all(target == pytest.approx(held) for target, _, _ in arm.set_points[3:])
+
+
+def test_a_push_arrives_although_what_is_held_stands_on_the_table() -> None:
+    arm = IdealArm(floor=TABLE + 0.03)
+    end, _ = run(arm, "push", 0.4, 0.0, TABLE + 0.02, -1.0, 0.2, names=("x", "y", "z", "direction", "delta"))
+    assert end is EndReason.ARRIVED
+    assert max(at[0] for at in arm.path) == pytest.approx(0.6, abs=5e-3)
