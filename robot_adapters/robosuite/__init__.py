@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -19,7 +19,15 @@ class RobosuiteSettings(BaseModel):
     speed: float = Field(
         0.0, ge=0.0, le=20.0, description="Simulated seconds a second, for watching; 0 is as fast as it goes."
     )
+    stepping: Literal["native", "reference"] = Field(
+        "native",
+        description="How the physics is stepped: compiled, or by robosuite's own loop, the same but slow.",
+    )
     live_jpeg_quality: int = Field(70, ge=30, le=100, description="JPEG quality of the live video while a skill runs.")
+    layout: dict[str, tuple[float, float]] = Field(
+        default_factory=dict,
+        description="Ranges of the start layout, [from, to] in m, that replace some of the task's; see docs/tasks.md.",
+    )
 
 
 class RobosuiteFactory:
@@ -28,20 +36,23 @@ class RobosuiteFactory:
     name = "robosuite"
     description = "A Franka Panda at a table, simulated by robosuite and MuJoCo, seen by two cameras."
     simulated = True
-    tasks: tuple[str, ...] = ("reaching", "stacking")
+    tasks: tuple[str, ...] = ("reaching", "stacking", "sweeping", "collecting_toy", "cooking_hotdog")
     settings: type[BaseModel] = RobosuiteSettings
 
     def __call__(self, task: str, settings: BaseModel) -> Adapter:
         """Build the adapter; takes a few seconds, most of it loading the simulator.
 
         Raises:
+            UnknownName: there is no such task.
+            InvalidLayout: the task has no such range of starts.
             Unavailable: robosuite or software graphics can't be had; the remedy says what to install or set.
         """
         # here and not above: the server lists adapters without loading a simulator
         from robot_adapters.registry import task as task_by_name  # noqa: PLC0415
         from robot_adapters.robosuite.adapter import RobosuiteAdapter  # noqa: PLC0415
 
-        return RobosuiteAdapter(task_by_name(task), RobosuiteSettings.model_validate(settings.model_dump()))
+        chosen = RobosuiteSettings.model_validate(settings.model_dump())
+        return RobosuiteAdapter(task_by_name(task, chosen.layout), chosen)
 
 
 FACTORY = RobosuiteFactory()

@@ -16,6 +16,7 @@ from robot_adapters.base import SkillCall
 from robot_adapters.projection import project
 from robot_adapters.registry import task
 from robot_adapters.robosuite.adapter import RobosuiteAdapter
+from tests.robot_adapters.robosuite.conftest import shared
 
 STACKING = task("stacking")
 CAMERAS = ("left", "right")
@@ -50,6 +51,72 @@ def test_a_block_s_centre_projects_onto_its_pixels(stacking: RobosuiteAdapter, c
         dot = stacking.overlays(SkillCall("pick", tuple(position)))[camera].dot
         assert dot is not None
         assert np.linalg.norm(np.array(dot) - centroid(mask)) < 1.0
+
+
+# a task's object -> a part that is drawn, and its middle from the object's origin
+PARTS = {
+    "sweeping": {"broom": ("broom_1_vis", (0.0, 0.0, -0.017)), "toy": ("toy_0_vis", (0.0, 0.0, 0.0))},
+    "collecting_toy": {"toy": ("toy_0_vis", (0.0, 0.0, 0.0)), "drawer": ("drawer_5_vis", (-0.084, 0.0, 0.024))},
+    "cooking_hotdog": {
+        "skillet": ("skillet_17_vis", (-0.125, 0.0, 0.015)),
+        "sausage": ("sausage_0_vis", (0.0, 0.0, 0.0)),
+    },
+}
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+@pytest.mark.parametrize("camera", CAMERAS)
+@pytest.mark.parametrize(("name", "thing"), [(name, thing) for name, things in PARTS.items() for thing in things])
+def test_a_thing_projects_onto_its_pixels(name: str, thing: str, camera: str, seed: int) -> None:
+    adapter = shared(name)
+    adapter.reset(seed)
+    drawn, offset = PARTS[name][thing]
+    geom = adapter.simulator.model.geom(drawn).id
+    with alone(adapter.simulator.model, geom):
+        mask = adapter.cameras.geoms(camera) == geom
+    assert mask.sum() > 150
+    scene = adapter.simulator.scene()
+    if thing in scene.joints:
+        fixed = next(spec.fixed for spec in task(name).objects if spec.name == thing)
+        assert fixed is not None
+        origin = np.array(fixed) - [scene.joints[thing], 0.0, 0.0]
+    else:
+        origin = scene.objects[thing]
+    pixel, _ = project(adapter.cameras.calibration(camera), origin + offset)
+    assert np.linalg.norm(pixel[0] - centroid(mask)) < 2.0
+
+
+COLOURS = {
+    "sweeping": {
+        "blue": ("broom_1_vis",),
+        "yellow": ("broom_0_vis", "broom_2"),
+        "pink": ("toy_0_vis",),
+        "green": ("dustpan_0_vis", "dustpan_1_vis"),
+    },
+    "collecting_toy": {"blue": ("drawer_5_vis", "drawer_6_vis"), "pink": ("toy_0_vis",)},
+    "cooking_hotdog": {"blue": ("skillet_17_vis",), "grey": ("stove_0_vis", "stove_2"), "red": ("stove_1",)},
+}
+LOOKS = {
+    "blue": lambda r, g, b: b > 1.5 * max(r, g),
+    "yellow": lambda r, g, b: min(r, g) > 2 * b,
+    "pink": lambda r, g, b: r > 1.3 * b > 1.3 * g,
+    "green": lambda r, g, b: g > 1.5 * max(r, b),
+    "red": lambda r, g, b: r > 2 * max(g, b),
+    "grey": lambda r, g, b: max(r, g, b) < 1.2 * min(r, g, b),
+}
+
+
+@pytest.mark.parametrize("camera", CAMERAS)
+@pytest.mark.parametrize("name", COLOURS)
+def test_things_have_the_colours_that_trainers_are_told(name: str, camera: str) -> None:
+    adapter = shared(name)
+    frame = adapter.reset(0).frames[camera]
+    picture = np.asarray(Image.open(io.BytesIO(frame.jpeg)).convert("RGB"), dtype=np.float64)
+    seen = adapter.cameras.geoms(camera)
+    for colour, geoms in COLOURS[name].items():
+        mask = np.isin(seen, [adapter.simulator.model.geom(geom).id for geom in geoms])
+        assert mask.sum() > 100, f"{colour} is hidden"
+        assert LOOKS[colour](*picture[mask].mean(axis=0)), f"{colour} looks like {picture[mask].mean(axis=0)}"
 
 
 @pytest.mark.parametrize("camera", CAMERAS)
