@@ -23,8 +23,8 @@ from server.workers.channel import FrameSender, Pipes, Refusal, StopLatch, answe
 
 log = logging.getLogger(__name__)
 
-FRAME_INTERVAL = 0.1
-"""Seconds between two live pictures while a skill runs. Cameras take turns: 5 a second each with two cameras."""
+FRAME_INTERVAL = 0.05
+"""Seconds between two live pictures while a skill runs. Cameras take turns: 10 a second each with two cameras."""
 
 
 class Latched(Refusal):

@@ -18,14 +18,7 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, rule, run_state_machine_as_test
 
 from server.lifecycle import Verb
-from server.schemas import (
-    CloseReason,
-    ExecutionOutcome,
-    ExperimentUpdate,
-    FeedbackStatus,
-    Lifecycle,
-    Mode,
-)
+from server.schemas import CloseReason, ExecutionOutcome, ExperimentUpdate, FeedbackStatus, Lifecycle, Mode
 from server.store import Conflict, Store
 from tests.server.databases import begun, click, created, new
 from tests.server.model import AFTER, Click, Execution, Experiment, Proposal, verdict_of
