@@ -49,6 +49,16 @@ class ParameterSpec:
     description: str = ""
 
 
+PRIMITIVES: Mapping[str, tuple[str, ...]] = {
+    "reach": ("x", "y", "z"),
+    "pick": ("x", "y", "z"),
+    "place": ("x", "y", "z"),
+    "push": ("x", "y", "z", "direction", "delta"),
+    "release": (),
+}
+"""What an arm can do, and the parameters that each takes; all that have any may take `yaw` as the last."""
+
+
 @dataclass(frozen=True)
 class SkillSpec:
     """A primitive as one task offers it: its name and the bounds of its parameters (DESIGN.md section 1).
@@ -112,9 +122,7 @@ def check_call(call: SkillCall, skills: tuple[SkillSpec, ...]) -> SkillSpec:
     by_name = {spec.name: spec for spec in skills}
     spec = by_name.get(call.skill)
     if spec is None:
-        raise InvalidCall(
-            f"the task has no skill {call.skill!r}", remedy=f"use one of: {', '.join(sorted(by_name))}"
-        )
+        raise InvalidCall(f"the task has no skill {call.skill!r}", remedy=f"use one of: {', '.join(sorted(by_name))}")
     if len(call.parameters) != len(spec.parameters):
         raise InvalidCall(
             f"{call.skill} takes {len(spec.parameters)} parameters, got {len(call.parameters)}",
@@ -289,6 +297,7 @@ class AdapterFactory(Protocol):
     simulated: bool
     """False for a real robot: evaluations are refused and motion needs an operator present."""
     tasks: tuple[str, ...]
+    """The tasks it was made for. An adapter that can stage others has a method `stages`: see `registry.Stages`."""
     settings: type[BaseModel]
     """Pydantic model of the adapter's settings, each field documented."""
 

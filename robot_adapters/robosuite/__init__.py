@@ -6,8 +6,12 @@ from typing import TYPE_CHECKING, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from robot_adapters.base import PRIMITIVES
+from robot_adapters.robosuite.scenes import stages
+
 if TYPE_CHECKING:
     from robot_adapters.base import Adapter
+    from robot_adapters.tasks.base import Task
 
 
 class RobosuiteSettings(BaseModel):
@@ -38,6 +42,10 @@ class RobosuiteFactory:
     simulated = True
     tasks: tuple[str, ...] = ("reaching", "stacking", "sweeping", "collecting_toy", "cooking_hotdog")
     settings: type[BaseModel] = RobosuiteSettings
+
+    def stages(self, task: Task) -> bool:
+        """Whether it has a scene for the task's objects (or needs none), and every skill."""
+        return stages(task) and {spec.name for spec in task.skills} <= PRIMITIVES.keys()
 
     def __call__(self, task: str, settings: BaseModel) -> Adapter:
         """Build the adapter; takes a few seconds, most of it loading the simulator.

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from importlib.metadata import entry_points
 from xml.etree.ElementTree import Element
 
-from robot_adapters.tasks.base import ObjectSpec
+from robot_adapters.tasks.base import ObjectSpec, Task
 
 Build = Callable[[Mapping[str, ObjectSpec]], list[Element]]
 """Objects by name -> MJCF bodies, one called like each object that isn't an area."""
@@ -16,6 +16,16 @@ GROUP = "seed.scenes"
 """Entry points of scenes of tasks of your own: the task's name = "module:build"."""
 
 BUILT_IN = ("sweeping", "collecting_toy", "cooking_hotdog")
+
+
+PLAIN = {"block", "area"}
+"""Shapes of `ObjectSpec` that need no scene: robosuite has blocks, and an area is only drawn."""
+
+
+def stages(task: Task) -> bool:
+    """Whether there is a scene for the task, or it needs none; loads nothing."""
+    known = task.name in BUILT_IN or len(entry_points(group=GROUP, name=task.name)) > 0
+    return known or {spec.shape for spec in task.objects} <= PLAIN
 
 
 def find(task: str) -> Build | None:

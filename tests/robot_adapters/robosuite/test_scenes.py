@@ -9,6 +9,7 @@ import pytest
 
 from robot_adapters.base import EndReason, SkillCall, SkillResult
 from robot_adapters.registry import task
+from robot_adapters.robosuite import FACTORY
 from robot_adapters.robosuite.adapter import RobosuiteAdapter
 from robot_adapters.tasks.base import Task
 from tests.robot_adapters.robosuite.conftest import shared
@@ -137,3 +138,11 @@ def test_a_push_out_of_reach_ends_before_a_joint_is_at_its_limit(sweeping: Robos
     limits = np.array([model.joint(f"robot0_joint{i}").range for i in range(1, 8)])
     assert (angles > limits[:, 0]).all()
     assert (angles < limits[:, 1]).all()
+
+
+def test_a_task_without_a_scene_is_staged_if_it_has_blocks_and_areas_only() -> None:
+    tower, cupboard = task("stacking"), task("collecting_toy")
+    tower.name, cupboard.name = "tower", "cupboard"  # names that no scene has
+    assert FACTORY.stages(tower)
+    assert not FACTORY.stages(cupboard)
+    assert all(FACTORY.stages(task(name)) for name in FACTORY.tasks)
