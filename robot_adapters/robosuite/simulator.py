@@ -24,7 +24,7 @@ GRASPING = (
     ("gripper0_right_finger2_collision", "gripper0_right_finger2_pad_collision"),
 )
 FINGERS = ("gripper0_right_finger_joint1", "gripper0_right_finger_joint2")
-SETTLING_STEPS = 4  # set-points after a reset, for the blocks to come to rest on the table
+SETTLING_STEPS = 2  # set-points after a reset, for everything to come to rest where it was put
 START_NOISE = 0.02  # rad, standard deviation, robosuite's own, for a task that doesn't place the gripper
 
 
