@@ -116,10 +116,11 @@ def check(
     task: Annotated[
         str | None, typer.Option(help="check an adapter with this task only [default: all it names]")
     ] = None,
+    adapter: Annotated[str, typer.Option(help="the adapter that stages a task")] = "kinematic",
 ) -> None:
     """Tell the author of a task or an adapter what is wrong with it. Exit code 1: something is."""
     try:
-        findings = check_plug_in(name, task)
+        findings = check_plug_in(name, task, adapter)
     except AdapterError as error:
         _give_up(str(error), error.remedy, FAILED if isinstance(error, Unavailable) else USAGE)
     for finding in findings:

@@ -151,16 +151,18 @@ async def evaluate_stored(
     return evaluation.model_dump(mode="json")
 
 
-def check_plug_in(name: str, task: str | None) -> list[str]:
+def check_plug_in(name: str, task: str | None, adapter: str = "kinematic") -> list[str]:
     """What is wrong with the task or adapter of this name, in plain words; this runs it.
+
+    A task whose rules are sound is staged by `adapter`; an adapter stages `task`, or all that it names.
 
     Raises:
         UnknownName: there is neither. Unavailable: simulator, graphics or robot can't be had here.
     """
     from robot_adapters import check  # noqa: PLC0415  it runs what it checks; nothing else here should
 
-    if name in registry.tasks():
-        return check.check_task(name)
+    if name in registry.tasks() or name in registry.broken(registry.TASKS):
+        return check.check_task(name) or check.check_adapter(adapter, name)
     tasks = (task,) if task is not None else registry.adapter(name).tasks
     return [finding for staged in tasks for finding in check.check_adapter(name, staged)]
 

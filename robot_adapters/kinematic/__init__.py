@@ -6,8 +6,14 @@ from typing import TYPE_CHECKING
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from robot_adapters.base import PRIMITIVES
+
 if TYPE_CHECKING:
     from robot_adapters.base import Adapter
+    from robot_adapters.tasks.base import Task
+
+SHAPES = {"block", "area", "thing", "fixture", "slider"}
+"""The shapes of `ObjectSpec` that the world moves and the painter draws."""
 
 
 class KinematicSettings(BaseModel):
@@ -34,6 +40,10 @@ class KinematicFactory:
     simulated = True
     tasks: tuple[str, ...] = ("reaching", "stacking", "sweeping", "collecting_toy", "cooking_hotdog")
     settings: type[BaseModel] = KinematicSettings
+
+    def stages(self, task: Task) -> bool:
+        """Whether it knows the shapes of all objects, and every skill."""
+        return {o.shape for o in task.objects} <= SHAPES and {s.name for s in task.skills} <= PRIMITIVES.keys()
 
     def __call__(self, task: str, settings: BaseModel) -> Adapter:
         """Build the adapter; takes milliseconds.

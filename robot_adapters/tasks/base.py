@@ -115,7 +115,10 @@ class Subgoal:
 
 
 class Task(Protocol):
-    """One task, shared by every adapter that can stage it (paper, section 'Long-horizon manipulation tasks')."""
+    """One task, shared by every adapter that can stage it (paper, section 'Long-horizon manipulation tasks').
+
+    `docs/custom-task.md` builds one.
+    """
 
     name: str
     title: str

@@ -20,7 +20,7 @@ T = TypeVar("T")
 @router.get("/tasks", responses=errors())
 def list_tasks() -> list[TaskInfo]:
     """Tasks with their skills, state and subgoals."""
-    return [catalogue.task_info(name, kind) for name, kind in sorted(registry.tasks().items())]
+    return catalogue.task_infos()
 
 
 @router.get("/tasks/{name}", responses=errors(404))

@@ -73,3 +73,30 @@ def test_listing_loads_no_simulator() -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=120)
     assert done.stdout.strip() == "[]"
+
+
+@pytest.mark.usefixtures("fresh")
+def test_an_adapter_stages_foreign_tasks_that_it_accepts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "odd_tasks.py").write_text(
+        "from robot_adapters.base import SkillSpec\nfrom robot_adapters.tasks.stacking import Stacking\n"
+        "class Throwing(Stacking):\n    skills = (SkillSpec('throw'),)\n"
+        "class Unbuildable(Stacking):\n    def __init__(self):\n        raise OSError('no file')\n"
+    )
+    install(
+        tmp_path,
+        "[seed.tasks]\nforeign = robot_adapters.tasks.reaching:Reaching\nthrowing = odd_tasks:Throwing\n"
+        "unbuildable = odd_tasks:Unbuildable\n",
+    )
+    monkeypatch.setattr(sys, "path", [*sys.path, str(tmp_path)])
+    kinematic = registry.adapter("kinematic")
+    assert registry.staged(kinematic) == (*kinematic.tasks, "foreign")
+
+
+@pytest.mark.usefixtures("fresh")
+def test_what_cannot_be_loaded_is_known_with_its_reason(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    install(tmp_path, "[seed.tasks]\nabsent = no_such_module:Task\nstacking = no_such_module:Task\n")
+    monkeypatch.setattr(sys, "path", [*sys.path, str(tmp_path)])
+    assert registry.broken(registry.TASKS) == {"absent": "ModuleNotFoundError: No module named 'no_such_module'"}
+    with pytest.raises(registry.UnknownName, match="no_such_module"):
+        registry.task("absent")
+    assert registry.task("stacking").name == "stacking"
