@@ -157,11 +157,12 @@ def check_plug_in(name: str, task: str | None, adapter: str = "kinematic") -> li
     A task whose rules are sound is staged by `adapter`; an adapter stages `task`, or all that it names.
 
     Raises:
-        UnknownName: there is neither. Unavailable: simulator, graphics or robot can't be had here.
+        UnknownName: there is no such thing. Unavailable: simulator, graphics or robot can't be had here.
     """
     from robot_adapters import check  # noqa: PLC0415  it runs what it checks; nothing else here should
 
     if name in registry.tasks() or name in registry.broken(registry.TASKS):
+        registry.adapter(adapter)
         return check.check_task(name) or check.check_adapter(adapter, name)
     tasks = (task,) if task is not None else registry.adapter(name).tasks
     return [finding for staged in tasks for finding in check.check_adapter(name, staged)]

@@ -136,6 +136,12 @@ def test_the_pages_task_is_solved_in_physics(sorting: Path) -> None:
     assert done.stdout.splitlines()[-1:] == ["solved"], done.stdout + done.stderr
 
 
+def test_an_unknown_adapter_is_a_wrong_argument(sorting: Path) -> None:
+    done = run(sorting, *SEED, "check", "sorting", "--adapter", "cinematic")
+    assert done.returncode == 2, done.stdout
+    assert "kinematic" in done.stderr
+
+
 def test_an_adapter_without_graphics_is_no_finding() -> None:
     # GLFW needs a display; a machine without one is what this stands for
     done = run(
