@@ -14,6 +14,7 @@ from agent.algorithm import AlgorithmFactory
 from robot_adapters import registry
 from robot_adapters.base import AdapterFactory
 from robot_adapters.tasks.base import Task
+from robot_adapters.tasks.layout import LayoutSettings
 from server.errors import invalid
 from server.schemas import (
     AdapterInfo,
@@ -24,7 +25,9 @@ from server.schemas import (
     Parameter,
     Skill,
     TaskInfo,
+    TeacherInfo,
 )
+from server.teacher import TeacherFactory, teachers
 
 T = TypeVar("T")
 
@@ -34,11 +37,6 @@ log = logging.getLogger("seed.catalogue")
 def algorithms() -> dict[str, AlgorithmFactory]:
     """Algorithms by name (entry points of the group `seed.algorithms`); a broken foreign one is skipped."""
     return cast(dict[str, AlgorithmFactory], _load("seed.algorithms"))
-
-
-def teachers() -> dict[str, Any]:
-    """Synthetic trainers by name (entry points of the group `seed.teachers`)."""
-    return _load("seed.teachers")
 
 
 def task_infos() -> list[TaskInfo]:
@@ -100,6 +98,11 @@ def algorithm_info(name: str, factory: AlgorithmFactory) -> AlgorithmInfo:
     )
 
 
+def teacher_info(name: str, factory: TeacherFactory) -> TeacherInfo:
+    """A teacher as the wire shows it."""
+    return TeacherInfo(name=name, description=factory.description, settings_schema=factory.settings.model_json_schema())
+
+
 def check(body: ExperimentCreate) -> ExperimentCreate:
     """`body` with all settings resolved: defaults, then the preset, then what the body says.
 
@@ -118,8 +121,7 @@ def check(body: ExperimentCreate) -> ExperimentCreate:
     preset: Mapping[str, Any] = {}
     if body.preset is not None:
         preset = _known("preset", body.preset, algorithm.presets)
-    if body.teacher is not None:
-        _known("teacher", body.teacher, teachers())
+    _check_layout(registry.tasks()[body.task]().layout, adapter, body.adapter_settings)
     if body.aggregation is not Aggregation.FIRST:
         raise invalid(
             [FieldProblem(field="aggregation", message="needs several trainers, and there is one")],
@@ -129,8 +131,29 @@ def check(body: ExperimentCreate) -> ExperimentCreate:
         update={
             "settings": _resolve("settings", algorithm.settings, {**preset, **body.settings}),
             "adapter_settings": _resolve("adapter_settings", adapter.settings, body.adapter_settings),
+            "teacher_settings": _teacher_settings(body),
         }
     )
+
+
+def _teacher_settings(body: ExperimentCreate) -> dict[str, Any]:
+    """All settings of the teacher; none where people judge."""
+    if body.teacher is not None:
+        factory = _known("teacher", body.teacher, teachers())
+        return _resolve("teacher_settings", factory.settings, body.teacher_settings)
+    if body.teacher_settings:
+        raise invalid(
+            [FieldProblem(field="teacher_settings", message="there is no teacher whose settings these are")],
+            remedy=f"name a teacher ({_list(teachers())}), or leave them out",
+        )
+    return {}
+
+
+def _check_layout(layout: LayoutSettings, adapter: AdapterFactory, settings: Mapping[str, Any]) -> None:
+    """Refuse ranges of the start that the task doesn't have, here and not when the adapter is built."""
+    changed = settings.get("layout")
+    if "layout" in adapter.settings.model_fields and isinstance(changed, Mapping):
+        _resolve("adapter_settings.layout", type(layout), changed, layout.model_dump())
 
 
 def _known(field: str, name: str, known: Mapping[str, T]) -> T:
@@ -143,22 +166,33 @@ def _known(field: str, name: str, known: Mapping[str, T]) -> T:
     return found
 
 
-def _resolve(field: str, model: type[BaseModel], values: Mapping[str, Any]) -> dict[str, Any]:
-    """All settings of `model` as JSON values, `values` taking effect."""
+def _resolve(
+    field: str, model: type[BaseModel], values: Mapping[str, Any], others: Mapping[str, Any] | None = None
+) -> dict[str, Any]:
+    """All settings of `model` as JSON values: `values`, then `others`, then the defaults."""
     unknown = sorted(set(values) - set(model.model_fields))
     if unknown:
         raise invalid(
             [FieldProblem(field=f"{field}.{name}", message="there is no such setting") for name in unknown[:50]],
-            remedy=f"the settings are: {_list(model.model_fields)}",
+            remedy=f"the settings are: {_list(model.model_fields)}"
+            if model.model_fields
+            else "leave it out: there are none",
         )
     for name, value in values.items():
-        if isinstance(value, float) and not math.isfinite(value):
+        if not _finite(value):
             raise invalid([FieldProblem(field=f"{field}.{name}", message="is not finite")], remedy="give a number")
     try:
-        return model.model_validate(dict(values)).model_dump(mode="json")
+        return model.model_validate({**(others or {}), **values}).model_dump(mode="json")
     except ValidationError as error:
         fields = [FieldProblem(field=".".join([field, *map(str, e["loc"])]), message=e["msg"]) for e in error.errors()]
-        raise invalid(fields, remedy="correct the named settings; the catalogue gives their schema") from error
+        raise invalid(fields, remedy=f"correct the named ones of: {_list(model.model_fields)}") from error
+
+
+def _finite(value: Any) -> bool:
+    """Whether no number in a JSON value is infinite or none at all."""
+    if isinstance(value, list):
+        return all(_finite(item) for item in value)
+    return not isinstance(value, float) or math.isfinite(value)
 
 
 def _load(group: str) -> dict[str, Any]:

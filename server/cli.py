@@ -19,6 +19,7 @@ from rich.console import Console
 from robot_adapters.base import AdapterError, Unavailable
 from server.cli_runs import Interrupted, RunFailed, check_plug_in, evaluate_stored, train_headless
 from server.cli_serve import run_server
+from server.cli_set import settings_from
 from server.errors import ServiceError
 from server.origin import check_bind
 from server.schemas import EvaluationCreate, ExperimentCreate
@@ -73,6 +74,14 @@ def train(  # noqa: PLR0917  Typer makes an option of each
     seed: Annotated[int, typer.Option(min=0, max=2**31 - 1, help="seed of robot and learner")] = 0,
     evaluate: Annotated[int, typer.Option(min=0, max=1000, help="rollouts of the final evaluation; 0: none")] = 10,
     name: Annotated[str | None, typer.Option(help="name of the experiment")] = None,
+    changes: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set",
+            metavar="PART.NAME=VALUE",
+            help="a setting of algorithm, adapter or teacher, e.g. teacher.noise=0.1; may be given again",
+        ),
+    ] = None,
     resume: Annotated[int | None, typer.Option(min=1, help="go on with this experiment instead of a new one")] = None,
     data_dir: DataDir = None,
     as_json: AsJson = False,
@@ -88,6 +97,12 @@ def train(  # noqa: PLR0917  Typer makes an option of each
         "teacher": teacher,
         "seed": seed,
     }
+    try:
+        fields |= settings_from(changes or [])
+    except ValueError as error:
+        _give_up(str(error), "write e.g. --set teacher.noise=0.1 or --set algorithm.batch_size=32", USAGE)
+    if changes and resume is not None:
+        _give_up("--set is for a new experiment", "leave it out, or leave --resume out", USAGE)
 
     async def run() -> dict[str, Any]:
         what = resume if resume is not None else ExperimentCreate(**fields)

@@ -72,14 +72,28 @@ class Desk:
             WorkerDied: a worker went away while this waited.
         """
         waiting = self.open
-        while self.open is not None and self.open is waiting and not leave.is_set():
+        while self._waits(waiting, leave):
             self._news.clear()
-            if not await self._news_or_death():
+            if not await self._news_or_death(self._left()):
                 await self.withdraw(CloseReason.TIMED_OUT)
         judged = self.judged
         if judged is not None and judged.verdict is not Verdict.GOOD:
             self.judged = None
         return judged
+
+    async def wait(self, seconds: float, leave: asyncio.Event) -> bool:
+        """Let a teacher think; False if the proposal closes, its time is over, or the loop is to end before that.
+
+        Raises:
+            WorkerDied: a worker went away meanwhile.
+        """
+        waiting, until = self.open, time.monotonic() + seconds
+        while self._waits(waiting, leave):
+            thinking, left = max(0.0, until - time.monotonic()), self._left()
+            self._news.clear()
+            if not await self._news_or_death(thinking if left is None else min(thinking, left)):
+                return left is None or thinking < left
+        return False
 
     async def feedback(self, proposal_id: int, body: FeedbackCreate, kind: str) -> Submission:
         """Store a click, then act on it: it is committed before anybody hears of it, and before this returns.
@@ -191,17 +205,23 @@ class Desk:
             return await self._store.open_proposal(drawn)
         return None
 
-    async def _news_or_death(self) -> bool:
-        """Wait for news; False if the proposal's time is over first."""
+    def _waits(self, proposal: Proposal | None, leave: asyncio.Event) -> bool:
+        return proposal is not None and self.open is proposal and not leave.is_set()
+
+    def _left(self) -> float | None:
+        """Seconds until the proposal's time is over; None: it has all the time."""
         limit = self._experiment().feedback_timeout
-        left = None if limit is None else max(0.0, self._since + limit - time.monotonic())
+        return None if limit is None else max(0.0, self._since + limit - time.monotonic())
+
+    async def _news_or_death(self, seconds: float | None) -> bool:
+        """Wait for news; False if there is none within so many seconds."""
         waits = {
             asyncio.ensure_future(self._news.wait()),
             asyncio.ensure_future(self._crew.death("robot")),
             asyncio.ensure_future(self._crew.death("learner")),
         }
         try:
-            done, _ = await asyncio.wait(waits, timeout=left, return_when=asyncio.FIRST_COMPLETED)
+            done, _ = await asyncio.wait(waits, timeout=seconds, return_when=asyncio.FIRST_COMPLETED)
         finally:
             for wait in waits:
                 wait.cancel()

@@ -118,7 +118,11 @@ class Ledger:
 
 
 def values_of(counters: Counters, predicted_feedback: float, label: int) -> dict[str, float]:
-    """What a metric point holds beside the learner's own values. good_share: of all counted feedback, 0 to 1."""
+    """What a metric point holds beside the learner's own values.
+
+    good_share: of all counted feedback, 0 to 1. violation_ratio: violations over decision steps, which are proposals
+    that were judged; one feedback judges one proposal as long as one trainer decides.
+    """
     return {
         "predicted_feedback": predicted_feedback,
         "label": float(label),
@@ -126,4 +130,5 @@ def values_of(counters: Counters, predicted_feedback: float, label: int) -> dict
         "executions": float(counters.executions),
         "violations": float(counters.violations),
         "good_share": counters.good / counters.feedback if counters.feedback else 0.0,
+        "violation_ratio": counters.violations / counters.feedback if counters.feedback else 0.0,
     }

@@ -86,6 +86,7 @@ class ExperimentRow(Base):
     preset: Mapped[str | None]
     settings: Mapped[dict[str, Any]]
     adapter_settings: Mapped[dict[str, Any]]
+    teacher_settings: Mapped[dict[str, Any]] = mapped_column(server_default=text("'{}'"))
     seed: Mapped[int]
     mode: Mapped[str]
     aggregation: Mapped[str]

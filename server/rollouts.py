@@ -70,9 +70,12 @@ async def _one(
         if done.stopped:
             return "interrupted", steps
         steps += done.low_level_steps
+        violated = {kind for kind, _ in done.violations}
+        if "damage" in violated:
+            return "violation", steps
         if done.task_success:
             return "success", steps
-        if any(kind == "manual_reset" for kind, _ in done.violations):
+        if violated:
             return "violation", steps
         seen = await crew.observe()
     return "horizon", steps

@@ -11,15 +11,14 @@ import asyncio
 import contextlib
 import logging
 from collections.abc import Callable, Coroutine
-from typing import Any
-
-import numpy as np
+from typing import Any, Literal
 
 from agent.algorithm import AgentError
 from robot_adapters.base import AdapterError
 from server.acting import Acting
-from server.crew import Crew, Seen
+from server.crew import Crew, Done, Seen
 from server.desk import Desk
+from server.judging import Judge
 from server.ledger import Ledger
 from server.publisher import Publisher
 from server.rollouts import roll_out
@@ -28,17 +27,17 @@ from server.schemas import (
     Evaluation,
     Experiment,
     ExperimentChanged,
-    FeedbackCreate,
     Lifecycle,
     Phase,
     Proposal,
     StreamEvent,
     Verdict,
 )
+from server.seeds import episode_seed
 from server.settings import Settings
 from server.store import Conflict, Store, StoreError
 from server.store_values import EpisodeOutcome, NewProposal
-from server.teacher import Teacher, teacher
+from server.violations import Response, respond
 from server.worker import WorkerDied, WorkerError
 
 log = logging.getLogger(__name__)
@@ -70,7 +69,6 @@ class Runner:
             publish=self._publish,
             changed=self.changed,
         )
-        self._teacher: Teacher | None = teacher(experiment.teacher, self._acting.task) if experiment.teacher else None
         self._task: asyncio.Task[None] | None = None
         self._leave = asyncio.Event()
         self._evaluating = False
@@ -80,8 +78,8 @@ class Runner:
         self._executed = 0
         self._seen: Seen | None = None
         self._reset_wanted = False
-        self._asked: int | None = None
         self.desk = Desk(store, self._crew, self._ledger, self._publish, lambda: self.experiment)
+        self._judge = Judge(experiment, self._acting.task, self.desk) if experiment.teacher else None
 
     # --- what the hub asks --------------------------------------------------------------------------------------
 
@@ -243,8 +241,9 @@ class Runner:
         if self.desk.open is not None:
             self.enter(Phase.AWAITING_FEEDBACK)
             self._ledger.write()
-            if self._teacher is not None and self._asked != self.desk.open.id:
-                await self._ask_teacher(self._teacher, self.desk.open)
+            asked = self.desk.open
+            if self._judge is not None and not self._judge.has_judged(asked):
+                await self._judge.judge(asked, self._acting.call_of(asked), leave)
             elif not self.experiment.lockstep:
                 self.desk.draw_ahead(lambda: asyncio.create_task(self._draw_ahead(seen)))
         return await self.desk.verdict(leave)
@@ -268,7 +267,11 @@ class Runner:
         done = await self._acting.move(judged, execution)
         self._seen = None
         self._executed += 1
-        if any(kind == "manual_reset" for kind, _ in done.violations):
+        kinds = [kind for kind, _ in done.violations]
+        response = respond(kinds, simulated=self.simulated, taught=self._judge is not None)
+        if response in (Response.HALT, Response.PAUSE):
+            await self._ask_operator(response, done)
+        if response is not Response.NOTHING:
             await self._end_episode("violation")
         elif done.task_success:
             await self._end_episode("success")
@@ -367,13 +370,16 @@ class Runner:
             await self._store.end_episode(self.experiment.id, outcome)
         self._seen = None
 
-    async def _ask_teacher(self, judge: Teacher, proposal: Proposal) -> None:
-        self._asked = proposal.id
-        value = judge.judge(np.array(proposal.state), self._acting.call_of(proposal))
-        body = FeedbackCreate(
-            click_id=f"teacher-{proposal.id}", value=value, trainer=f"teacher:{self.experiment.teacher}"
-        )
-        await self.desk.feedback(proposal.id, body, "teacher")
+    async def _ask_operator(self, response: Response, done: Done) -> None:
+        """Go no further until a person has looked: after damage only once the stop is lifted."""
+        if response is Response.HALT:
+            self._crew.stop()  # `stop` would also kill a robot worker that moves; this one has ended its motion
+        self.leave()
+        with contextlib.suppress(Conflict):  # paused, or over, by a verb that was quicker
+            verb: Literal["halt", "pause"] = "halt" if response is Response.HALT else "pause"
+            self.changed(await self._store.transition(self.experiment.id, verb))
+        why = [detail for _, detail in done.violations]
+        await self._store.add_event(self.experiment.id, "operator_needed", {"response": response, "why": why})
 
     def _insist(self, task: asyncio.Task[None] | None) -> None:
         """The emergency stop's last word: a robot worker that still moves is killed."""
@@ -389,8 +395,3 @@ class Runner:
 
     def _publish(self, event: StreamEvent) -> None:
         self._publisher.publish(self.experiment.id, event)
-
-
-def episode_seed(experiment_seed: int, number: int) -> int:
-    """The seed of an episode: the same for the same experiment seed and episode number, unrelated between any two."""
-    return int(np.random.SeedSequence([experiment_seed, number]).generate_state(1)[0]) >> 1

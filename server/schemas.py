@@ -98,9 +98,7 @@ class ExperimentCreate(Wire):
     adapter: Annotated[str, Field(examples=["robosuite"], description="a name from GET /api/v1/adapters")] = "robosuite"
     algorithm: Annotated[str, Field(examples=["seed"], description="a name from GET /api/v1/algorithms")] = "seed"
     preset: Annotated[str | None, Field(examples=["paper_sim"], description="a preset of the algorithm")] = None
-    settings: Annotated[
-        dict[str, Any], Field(description="the algorithm's settings that differ from the preset")
-    ] = {}
+    settings: Annotated[dict[str, Any], Field(description="the algorithm's settings that differ from the preset")] = {}
     adapter_settings: Annotated[dict[str, Any], Field(description="the adapter's settings")] = {}
     seed: Seed = 0
     mode: Mode = Mode.EXECUTE_APPROVED
@@ -112,6 +110,9 @@ class ExperimentCreate(Wire):
     teacher: Annotated[
         str | None, Field(examples=["synthetic"], description="a synthetic trainer that judges; null: people do")
     ] = None
+    teacher_settings: Annotated[
+        dict[str, Any], Field(description="the teacher's settings; see GET /api/v1/teachers")
+    ] = {}
     lockstep: Annotated[
         bool | None,
         Field(
@@ -145,6 +146,7 @@ class Experiment(Wire):
     aggregation: Aggregation
     feedback_timeout: float | None
     teacher: str | None
+    teacher_settings: dict[str, Any]
     lockstep: bool
     lifecycle: Lifecycle
     phase: Phase
@@ -434,6 +436,14 @@ class AlgorithmInfo(Wire):
     name: str
     description: str
     presets: dict[str, dict[str, Any]]
+    settings_schema: dict[str, Any]
+
+
+class TeacherInfo(Wire):
+    """A synthetic trainer of the catalogue; `settings_schema` is JSON Schema."""
+
+    name: str
+    description: str
     settings_schema: dict[str, Any]
 
 

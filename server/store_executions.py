@@ -112,6 +112,16 @@ def end(
         end_reason=end_reason,
         violations=[violation.kind for violation in violations],
     )
+    for violation in violations:
+        if violation.kind == "damage":
+            journal(
+                session,
+                row.experiment_id,
+                "incident",
+                execution=row.id,
+                proposal=row.proposal_id,
+                detail=violation.detail,
+            )
     return row
 
 

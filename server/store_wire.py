@@ -22,6 +22,7 @@ def experiment(row: models.ExperimentRow) -> schemas.Experiment:
         aggregation=schemas.Aggregation(row.aggregation),
         feedback_timeout=row.feedback_timeout,
         teacher=row.teacher,
+        teacher_settings=row.teacher_settings,
         lockstep=row.lockstep,
         lifecycle=schemas.Lifecycle(row.lifecycle),
         phase=schemas.Phase.IDLE,

@@ -1,4 +1,4 @@
-"""Tasks, adapters and algorithms that can be chosen."""
+"""Tasks, adapters, algorithms and teachers that can be chosen."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ from robot_adapters import registry
 from server import catalogue
 from server.errors import ServiceError
 from server.routes.dependencies import errors
-from server.schemas import AdapterInfo, AlgorithmInfo, TaskInfo
+from server.schemas import AdapterInfo, AlgorithmInfo, TaskInfo, TeacherInfo
+from server.teacher import teachers
 
 router = APIRouter(tags=["catalogue"])
 T = TypeVar("T")
@@ -54,9 +55,15 @@ def get_algorithm(name: str) -> AlgorithmInfo:
 
 
 @router.get("/teachers", responses=errors())
-def list_teachers() -> list[str]:
-    """Names of the synthetic trainers that may judge in a person's place."""
-    return list(catalogue.teachers())
+def list_teachers() -> list[TeacherInfo]:
+    """Synthetic trainers that may judge in a person's place, with the JSON Schema of their settings."""
+    return [catalogue.teacher_info(name, factory) for name, factory in teachers().items()]
+
+
+@router.get("/teachers/{name}", responses=errors(404))
+def get_teacher(name: str) -> TeacherInfo:
+    """One synthetic trainer."""
+    return _named(name, {teacher.name: teacher for teacher in list_teachers()}, "teacher")
 
 
 def _named(name: str, known: Mapping[str, T], kind: str) -> T:

@@ -23,7 +23,7 @@ EXAMPLES: dict[str, Any] = {
     "simulated arm, a person judges": {
         "value": {"name": "Stacking", "task": "stacking", "adapter": "robosuite", "preset": "paper_sim"}
     },
-    "no physics, the synthetic teacher judges": {
+    "no physics, a synthetic teacher judges": {
         "value": {
             "name": "Reaching, dry run",
             "task": "reaching",
@@ -31,7 +31,8 @@ EXAMPLES: dict[str, Any] = {
             "preset": "paper_sim",
             "settings": {},
             "seed": 1,
-            "teacher": "synthetic",
+            "teacher": "noisy",
+            "teacher_settings": {"noise": 0.05},
         }
     },
 }

@@ -137,6 +137,11 @@ def test_train_refuses_unknown_names_and_wrong_values(tmp_path: Path) -> None:
     refused(seed("train", "--adapter", "ur5", *where), 2, "ur5", "kinematic")
     refused(seed("train", *KINEMATIC, "--algorithm", "dqn", *where), 2, "dqn", "seed")
     refused(seed("train", *KINEMATIC, "--teacher", "mother", *where), 2, "mother", "synthetic")
+    noisy = ("train", *KINEMATIC, "--teacher", "noisy", *where)
+    refused(seed(*noisy, "--set", "teacher.noise=2"), 2, "teacher_settings.noise")
+    refused(seed(*noisy, "--set", "adapter.layout.w=[0.1,0.2]"), 2, "adapter_settings.layout.w", "x, y, z")
+    refused(seed(*noisy, "--set", "noise=0.1"), 2, "PART.NAME=VALUE")
+    refused(seed(*noisy, "--resume", 77, "--set", "teacher.noise=0.1"), 2, "--resume")
     refused(seed("train", "--resume", 77, *where), 2, "77")
     refused(seed("evaluate", 77, *where), 2, "77")
     assert seed("train", "--feedback", "0", *where).returncode == 2
@@ -168,6 +173,23 @@ def test_train_ends_with_a_stored_evaluation_and_one_json_line(tmp_path: Path) -
     assert more.returncode == 0, more.stderr
     assert json.loads(more.stdout.splitlines()[-1])["rollouts"] == 1
     assert rows(tmp_path, "SELECT count(*) FROM evaluation") == [(2,)]
+
+
+def test_settings_of_every_part_can_be_set(tmp_path: Path) -> None:
+    changes = ("teacher.noise=1", "algorithm.hidden_size=16", "adapter.draw=false", "adapter.layout.x=[0.45,0.65]")
+    given = [word for change in changes for word in ("--set", change)]
+    amount = ("--feedback", 10, "--evaluate", 0, "--json", "--data-dir", tmp_path)
+    done = seed("train", *KINEMATIC, "--teacher", "noisy", *given, *amount)
+    assert done.returncode == 0, done.stderr
+    stored = rows(tmp_path, "SELECT settings, adapter_settings, teacher_settings FROM experiment")
+    learner, adapter, teacher = map(json.loads, stored[0])
+    assert learner["hidden_size"] == 16
+    assert (adapter["draw"], adapter["layout"]) == (False, {"x": [0.45, 0.65]})
+    assert teacher["noise"] == 1
+    # always the wrong way round: what is bad, and most of what a beginner proposes is, was called good
+    ((good, executed),) = rows(tmp_path, "SELECT good, executions FROM experiment")
+    assert good >= 8
+    assert executed == good
 
 
 def test_ctrl_c_pauses_training_and_it_goes_on_from_there(tmp_path: Path) -> None:

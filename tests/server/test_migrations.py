@@ -65,6 +65,7 @@ async def test_a_database_of_the_first_version_keeps_every_row_through_every_upg
     try:
         experiment = await store.experiment(1)
         assert (experiment.name, experiment.lifecycle, experiment.halted) == ("old", Lifecycle.PAUSED, True)
+        assert experiment.teacher_settings == {}
         assert (experiment.counters.feedback, experiment.counters.low_level_steps) == (1, 40)
         assert (await store.proposal(1)).verdict is Verdict.GOOD
         assert (await store.proposal(2)).close_reason is CloseReason.TIMED_OUT

@@ -24,6 +24,23 @@ WRONG: list[tuple[dict[str, Any], str, str]] = [
     ({"settings": {"learning_rate": -1}}, "settings.learning_rate", ""),
     ({"settings": []}, "settings", ""),
     ({"adapter_settings": {"gravity": 1}}, "adapter_settings.gravity", ""),
+    ({"teacher_settings": {"noise": 0.1}}, "teacher_settings", "synthetic"),
+    ({"teacher": "noisy", "teacher_settings": {"nois": 0.1}}, "teacher_settings.nois", "noise"),
+    ({"teacher": "noisy", "teacher_settings": {"noise": 1.1}}, "teacher_settings.noise", "noise"),
+    ({"teacher": "delayed", "teacher_settings": {"delay": -1}}, "teacher_settings.delay", ""),
+    ({"teacher": "skipping", "teacher_settings": {"skip_within": "far"}}, "teacher_settings.skip_within", ""),
+    ({"adapter_settings": {"layout": {"block_a_x": [0.5, 0.6]}}}, "adapter_settings.layout.block_a_x", "x, y"),
+    ({"adapter_settings": {"layout": {"x": [0.6, 0.5]}}}, "adapter_settings.layout.x", "x, y"),
+    ({"adapter_settings": {"layout": {"x": [0.6]}}}, "adapter_settings.layout.x.1", "x, y"),
+    ({"adapter_settings": {"layout": {"x": "wide"}}}, "adapter_settings.layout.x", "x, y"),
+    ({"adapter_settings": {"layout": {"x": [0.5, 0.5], "y": [0, 0]}}}, "adapter_settings.layout", "x, y"),
+    ({"adapter_settings": {"layout": [0.5, 0.6]}}, "adapter_settings.layout", ""),
+    ({"adapter": "robosuite", "adapter_settings": {"layout": {"z": [0, 1]}}}, "adapter_settings.layout.z", "x, y"),
+    (
+        {"task": "sweeping", "adapter_settings": {"layout": {"x": [0.5, 0.6]}}},
+        "adapter_settings.layout.x",
+        "toy_y",
+    ),
     ({"aggregation": "majority"}, "aggregation", "first"),
     ({"aggregation": "loudest"}, "aggregation", ""),
     ({"mode": "fly"}, "mode", ""),
@@ -52,8 +69,19 @@ async def test_the_catalogue_lists_what_an_experiment_may_name(tmp_path: Path) -
         assert {"paper_sim", "paper_real"} <= set(algorithms["seed"]["presets"])
         described = algorithms["seed"]["settings_schema"]["properties"]
         assert all(field["description"] for field in described.values())
-        assert "synthetic" in (await live.http.get("/api/v1/teachers")).json()
-        for kind, names in (("tasks", tasks), ("adapters", adapters), ("algorithms", algorithms)):
+        teachers = {t["name"]: t for t in (await live.http.get("/api/v1/teachers")).json()}
+        assert {"synthetic", "noisy", "skipping", "delayed"} <= set(teachers)
+        for teacher in teachers.values():
+            assert all(field["description"] for field in teacher["settings_schema"]["properties"].values())
+        defaults = {
+            n: {k: f["default"] for k, f in t["settings_schema"]["properties"].items()} for n, t in teachers.items()
+        }
+        assert set(defaults["synthetic"].values()) == {0.0}
+        assert defaults["noisy"]["noise"] > 0
+        assert defaults["skipping"]["skip_within"] > 0
+        assert defaults["delayed"]["delay"] > 0
+        kinds = (("tasks", tasks), ("adapters", adapters), ("algorithms", algorithms), ("teachers", teachers))
+        for kind, names in kinds:
             for name, body in names.items():
                 assert (await live.http.get(f"/api/v1/{kind}/{name}")).json() == body
 
@@ -80,6 +108,13 @@ async def test_settings_are_resolved_from_defaults_preset_and_body(tmp_path: Pat
         assert stored["settings"] == stored["settings"] | preset | {"batch_size": 32}
         schema = (await live.http.get("/api/v1/algorithms/seed")).json()["settings_schema"]
         assert set(stored["settings"]) == set(schema["properties"])
+        taught = EXPERIMENT | {"teacher": "noisy", "teacher_settings": {"skip_within": 0.01}}
+        taught["adapter_settings"] = {"layout": {"y": [-0.1, 0.1]}}
+        stored = (await live.http.post("/api/v1/experiments", json=taught)).json()
+        settings = {"noise": 0.1, "skip_within": 0.01, "delay": 0.0, "delay_spread": 0.0}
+        assert stored["teacher_settings"] == settings
+        assert stored["adapter_settings"]["layout"] == {"y": [-0.1, 0.1]}
+        assert (await live.http.get(f"/api/v1/experiments/{stored['id']}")).json() == stored
 
 
 def test_the_catalogue_loads_neither_torch_nor_a_simulator() -> None:

@@ -7,7 +7,6 @@ from typing import Any
 
 import pytest
 
-from server.runner import episode_seed
 from server.schemas import (
     CloseReason,
     EvaluationCreate,
@@ -26,6 +25,7 @@ from server.schemas import (
     ProposalOpened,
     Verdict,
 )
+from server.seeds import episode_seed
 from server.store import Conflict
 from tests.server.stage import Stage, stage
 

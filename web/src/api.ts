@@ -130,9 +130,29 @@ export interface paths {
         };
         /**
          * List Teachers
-         * @description Names of the synthetic trainers that may judge in a person's place.
+         * @description Synthetic trainers that may judge in a person's place, with the JSON Schema of their settings.
          */
         get: operations["list_teachers"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/teachers/{name}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Teacher
+         * @description One synthetic trainer.
+         */
+        get: operations["get_teacher"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1448,6 +1468,10 @@ export interface components {
             feedback_timeout: number | null;
             /** Teacher */
             teacher: string | null;
+            /** Teacher Settings */
+            teacher_settings: {
+                [key: string]: unknown;
+            };
             /** Lockstep */
             lockstep: boolean;
             lifecycle: components["schemas"]["Lifecycle"];
@@ -1552,6 +1576,14 @@ export interface components {
              * @example synthetic
              */
             teacher?: string | null;
+            /**
+             * Teacher Settings
+             * @description the teacher's settings; see GET /api/v1/teachers
+             * @default {}
+             */
+            teacher_settings: {
+                [key: string]: unknown;
+            };
             /**
              * Lockstep
              * @description true: owed gradient steps are worked off before the next proposal, so a run can be repeated exactly; false: they run while the human thinks; null: true with a teacher, else false
@@ -2090,6 +2122,20 @@ export interface components {
             horizon: number;
         };
         /**
+         * TeacherInfo
+         * @description A synthetic trainer of the catalogue; `settings_schema` is JSON Schema.
+         */
+        TeacherInfo: {
+            /** Name */
+            name: string;
+            /** Description */
+            description: string;
+            /** Settings Schema */
+            settings_schema: {
+                [key: string]: unknown;
+            };
+        };
+        /**
          * Trainer
          * @description Someone who judges: a person, or a teacher.
          */
@@ -2537,11 +2583,78 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": string[];
+                    "application/json": components["schemas"]["TeacherInfo"][];
                 };
             };
             /** @description A foreign page, or a foreign host name */
             403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_teacher: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TeacherInfo"];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Validation Error */
+            422: {
                 headers: {
                     [name: string]: unknown;
                 };

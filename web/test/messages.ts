@@ -18,6 +18,7 @@ export function experiment(change: Partial<Experiment> = {}): Experiment {
     aggregation: "first",
     feedback_timeout: null,
     teacher: null,
+    teacher_settings: {},
     lockstep: false,
     lifecycle: "running",
     phase: "awaiting_feedback",

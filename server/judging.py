@@ -1,0 +1,44 @@
+"""A teacher at the desk: it sees the open proposal, takes its time, and clicks as a person would."""
+
+from __future__ import annotations
+
+import asyncio
+
+import numpy as np
+
+from robot_adapters.base import SkillCall
+from robot_adapters.tasks.base import Task
+from server.desk import Desk
+from server.schemas import Experiment, FeedbackCreate, Proposal
+from server.seeds import judging
+from server.teacher import Case, teacher
+
+
+class Judge:
+    """Judges each proposal of one experiment once. One that was taken back is left to whoever took it back."""
+
+    def __init__(self, experiment: Experiment, task: Task, desk: Desk) -> None:
+        assert experiment.teacher is not None
+        self._teacher = teacher(experiment.teacher, task, experiment.teacher_settings)
+        self._name = f"teacher:{experiment.teacher}"
+        self._seed = experiment.seed
+        self._desk = desk
+        self._judged: int | None = None
+
+    def has_judged(self, proposal: Proposal) -> bool:
+        """Whether this was the last one that it judged."""
+        return self._judged == proposal.id
+
+    async def judge(self, proposal: Proposal, call: SkillCall, leave: asyncio.Event) -> None:
+        """Click on the open proposal, unless it is closed, or the loop is to end, while the teacher still thinks.
+
+        Raises:
+            WorkerDied: a worker went away meanwhile.
+        """
+        case = Case(np.array(proposal.state), call, judging(self._seed, proposal.number))
+        judgement = self._teacher.judge(case)
+        if judgement.delay > 0 and not await self._desk.wait(judgement.delay, leave):
+            return
+        self._judged = proposal.id
+        click = FeedbackCreate(click_id=f"teacher-{proposal.id}", value=judgement.value, trainer=self._name)
+        await self._desk.feedback(proposal.id, click, "teacher")

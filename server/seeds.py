@@ -1,0 +1,17 @@
+"""Randomness that a run can be repeated with: all of it comes from the experiment's seed and a number."""
+
+from __future__ import annotations
+
+import numpy as np
+
+_JUDGING = 1
+
+
+def episode_seed(experiment_seed: int, number: int) -> int:
+    """The seed of an episode: the same for the same experiment seed and episode number, unrelated between any two."""
+    return int(np.random.SeedSequence([experiment_seed, number]).generate_state(1)[0]) >> 1
+
+
+def judging(experiment_seed: int, number: int) -> np.random.Generator:
+    """A synthetic trainer's dice for the proposal of this number: after a restart they fall as they would have."""
+    return np.random.default_rng(np.random.SeedSequence([experiment_seed, number, _JUDGING]))
