@@ -27,7 +27,7 @@ from server.workers.channel import Pipes, Refusal, answer, open_pipes
 log = logging.getLogger(__name__)
 
 NEAR = 0.05
-"""m in the xy plane: what counts as near a task-relevant object (the paper gives no number; about two block widths)."""
+"""m in the xy plane: what counts as near a task-relevant key point (the paper gives no number; two block widths)."""
 
 
 class Learner:
@@ -144,13 +144,13 @@ class Learner:
 
 
 def near(task: Task, state: np.ndarray[Any, np.dtype[np.float64]], call: SkillCall) -> bool:
-    """The paper's affordance: whether the call's position is near a task-relevant object.
+    """The paper's affordance: whether the call's position is near a place where its skill acts on the task's objects.
 
-    True for a skill without a position, and where the state names no objects: nothing to be far from.
+    True for a skill without a position, and where the task names no such place: nothing to be far from.
     """
     spec = next(s for s in task.skills if s.name == call.skill)
     named = call.named(spec)
-    keypoints = task.keypoints(state)
+    keypoints = task.keypoints(state, call.skill)
     if "x" not in named or len(keypoints) == 0:
         return True
     distances = np.linalg.norm(keypoints[:, :2] - np.array([named["x"], named["y"]]), axis=1)
