@@ -22,7 +22,10 @@ export interface JudgeBarProps {
 }
 
 function typing(target: EventTarget | null): boolean {
-  return target instanceof HTMLElement && target.matches("input:not([type=radio]), select, textarea, [contenteditable]");
+  return (
+    target instanceof HTMLElement &&
+    target.matches("input:not([type=radio]), select, textarea, [contenteditable]")
+  );
 }
 
 function useJudgeKeys(props: JudgeBarProps): void {
