@@ -125,7 +125,7 @@ class Desk:
             if undone.withdrawn is not None:
                 self._publish(ProposalClosed(proposal=undone.withdrawn))
             self._show(undone.reopened)
-        self._ledger.refresh()
+        self._ledger.taken_back()
         self.wake()
         return undone.feedback
 

@@ -18,6 +18,7 @@ log = logging.getLogger(__name__)
 
 @dataclass(frozen=True)
 class _Note:
+    number: int
     predicted_feedback: float
     label: int
 
@@ -41,13 +42,16 @@ class Ledger:
         self._every = checkpoint_every
         self._publish = publish
         self._changed = changed
+        # counted here too: when a click is written down, the next one may be stored already
+        self._feedback = experiment.counters.feedback
         self._notes: list[_Note] = []
         self._unsaved = 0
         self._task: asyncio.Task[None] | None = None
 
     def note(self, proposal: Proposal, label: int) -> None:
         """Remember a counted click until `write`."""
-        self._notes.append(_Note(proposal.predicted_feedback, label))
+        self._feedback += 1
+        self._notes.append(_Note(self._feedback, proposal.predicted_feedback, label))
         self._unsaved += 1
 
     def write(self) -> None:
@@ -55,6 +59,11 @@ class Ledger:
         if self._notes:
             notes, self._notes = self._notes, []
             self._soon(self._write(notes, self._crew.metrics))
+
+    def taken_back(self) -> None:
+        """One counted click less."""
+        self._feedback -= 1
+        self.refresh()
 
     def refresh(self) -> None:
         """Read the counters anew and tell everyone, soon."""
@@ -90,9 +99,9 @@ class Ledger:
     async def _write(self, notes: list[_Note], learner: dict[str, float]) -> None:
         experiment = await self._store.experiment(self._id)
         counters = experiment.counters
-        for behind, note in zip(range(len(notes) - 1, -1, -1), notes, strict=True):
+        for note in notes:
             values = values_of(counters, note.predicted_feedback, note.label) | learner
-            point = await self._store.add_metrics(self._id, counters.feedback - behind, values)
+            point = await self._store.add_metrics(self._id, note.number, values)
             self._publish(MetricsAdded(point=point))
         self._changed(experiment)
         if self._unsaved >= self._every:
