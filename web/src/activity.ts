@@ -15,15 +15,19 @@ export function activity(state: TrainerState, drawn: boolean): Activity {
   if (!experiment)
     return busy(state.connection === "lost" ? "The service doesn't answer. Trying again." : "Loading");
   if (experiment.halted) return { tone: "stopped", text: "Emergency stop. Nothing moves until you re-arm." };
-  switch (experiment.lifecycle) {
+  const { phase, lifecycle } = experiment;
+  // A pause lets a skill that moves end: until then the page may not say that nothing does.
+  if (lifecycle !== "running" && phase !== "evaluating" && (state.execution || phase === "executing"))
+    return { tone: "moving", text: `Finishing ${state.execution?.skill ?? "the skill"}, then ${lifecycle}` };
+  switch (lifecycle) {
     case "created":
-      return experiment.phase === "evaluating" ? evaluating(state) : still("Not started yet");
+      return phase === "evaluating" ? evaluating(state) : still("Not started yet");
     case "paused":
-      return experiment.phase === "evaluating" ? evaluating(state) : still("Paused. Nothing moves.");
+      return phase === "evaluating" ? evaluating(state) : still("Paused. Nothing moves.");
     case "finished":
-      return experiment.phase === "evaluating" ? evaluating(state) : still("Finished");
+      return phase === "evaluating" ? evaluating(state) : still("Finished");
     case "failed":
-      return { tone: "stopped", text: experiment.failure ?? "Failed" };
+      return { tone: "stopped", text: "Failed. The message at the top says why." };
     case "archived":
       return still("Archived");
     case "running":

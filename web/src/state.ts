@@ -125,11 +125,11 @@ function onEvent(state: TrainerState, event: StreamEvent): TrainerState {
     case "proposal_opened":
       return { ...state, proposal: event.proposal, judged: null, live: state.execution ? state.live : null };
     case "proposal_closed":
-      return event.proposal.id === state.proposal?.id ? { ...state, proposal: event.proposal } : state;
+      return event.proposal.id === state.proposal?.id ? withClosed(state, event.proposal) : state;
     case "feedback_stored":
       return {
         ...state,
-        undoable: event.undoable ? event.feedback : state.undoable,
+        undoable: event.undoable && canStillUndo(state.experiment) ? event.feedback : state.undoable,
         pending: without(state.pending, event.feedback.click_id),
       };
     case "feedback_undone":
@@ -173,6 +173,7 @@ function onSnapshot(state: TrainerState, event: SnapshotEvent): TrainerState {
     execution,
     live: execution?.id ?? (event.proposal ? null : state.live),
     undoable: event.undoable ?? null,
+    judged: null, // may have been undone meanwhile; a second click on the same proposal is the service's to refuse
   };
   const synced = withExperiment(next, event.experiment);
   return restarted
@@ -185,9 +186,22 @@ function withExperiment(state: TrainerState, experiment: Experiment): TrainerSta
   return {
     ...state,
     experiment,
+    undoable: canStillUndo(experiment) ? state.undoable : null,
     stopping: experiment.halted ? "no" : state.stopping,
     curve: addPoint(state.curve, { feedback, successes }),
   };
+}
+
+/** As the service rules: undo is for an experiment that runs, on the scene that was judged. */
+function canStillUndo(experiment: Experiment | null): boolean {
+  if (experiment?.lifecycle !== "running" || experiment.halted) return false;
+  return experiment.phase !== "starting" && experiment.phase !== "observing";
+}
+
+/** A proposal closed without a verdict: a reset or a death ends its episode, and an undo has nothing more to undo. */
+function withClosed(state: TrainerState, proposal: Proposal): TrainerState {
+  const dropped = proposal.close_reason === "withdrawn" || proposal.close_reason === "interrupted";
+  return { ...state, proposal, undoable: dropped ? null : state.undoable };
 }
 
 function onExecutionEnded(state: TrainerState, execution: Execution, violations: string[]): TrainerState {

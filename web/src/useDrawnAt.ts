@@ -1,9 +1,9 @@
-// When the drawn proposal appeared: presses from before it don't count, and the time since the click is measured.
+// When the drawn proposal appeared: how long it was there before a press, and the time from a click until it came.
 import { useLayoutEffect, useRef } from "react";
 
 export interface DrawnClock {
-  /** Whether something pressed at `time` (ms, as in `Event.timeStamp`) could have seen what is drawn now. */
-  sawIt: (time: number) => boolean;
+  /** How long (ms) what is drawn now had been there at `time` (ms, as in `Event.timeStamp`); negative before it. */
+  age: (time: number) => number;
   clicked: (time: number) => void;
 }
 
@@ -31,7 +31,7 @@ export function useDrawnAt(drawnId: number | null): DrawnClock {
     return () => cancelAnimationFrame(frame);
   }, [drawnId]);
   return {
-    sawIt: (time) => time >= drawnAt.current,
+    age: (time) => time - drawnAt.current,
     clicked: (time) => {
       clickedAt.current = time;
       performance.mark("seed:click", { startTime: time });

@@ -140,6 +140,16 @@ describe("coming back", () => {
     expect(back.notices.at(-1)?.text).toContain("restarted");
   });
 
+  it("lets the open proposal be judged again: the click on it may have been undone meanwhile", () => {
+    const judged = having(snapshot({ proposal: proposal(1) }), {
+      type: "acknowledged",
+      request_id: "click-1",
+      feedback: feedback(1),
+    });
+    expect(judgeable(judged, 1)).toBe(false);
+    expect(judgeable(next(judged, snapshot({ proposal: proposal(1) })), 1)).toBe(true);
+  });
+
   it("says nothing after a mere reconnect", () => {
     expect(having(snapshot(), snapshot()).notices).toEqual([]);
   });
@@ -162,6 +172,28 @@ describe("undo", () => {
     expect(stored.undoable?.id).toBe(1);
     expect(next(stored, started).undoable).toBeNull();
     expect(next(stored, { type: "feedback_undone", feedback: feedback(1) }).undoable).toBeNull();
+  });
+
+  it.each([
+    ["paused", experiment({ lifecycle: "paused" })],
+    ["finished", experiment({ lifecycle: "finished", phase: "idle" })],
+    ["failed", experiment({ lifecycle: "failed", phase: "idle" })],
+    ["halted", experiment({ halted: true })],
+    ["looking at a new scene", experiment({ phase: "observing" })],
+  ])("is gone once the experiment is %s, and no late news brings it back", (_, value) => {
+    const stored: StreamEvent = { type: "feedback_stored", feedback: feedback(1), undoable: true };
+    const before = having(snapshot(), opened(1), stored, closed(1), opened(2));
+    expect(before.undoable?.id).toBe(1);
+    const after = next(before, { type: "experiment_changed", experiment: value });
+    expect(after.undoable).toBeNull();
+    expect(next(after, stored).undoable).toBeNull();
+  });
+
+  it("is gone at a reset, which withdraws the open proposal", () => {
+    const stored: StreamEvent = { type: "feedback_stored", feedback: feedback(1), undoable: true };
+    const withdrawn = proposal(2, { closed_at: "2026-01-01T00:00:01Z", close_reason: "withdrawn" });
+    const state = having(snapshot(), opened(1), stored, closed(1), opened(2));
+    expect(next(state, { type: "proposal_closed", proposal: withdrawn }).undoable).toBeNull();
   });
 });
 
@@ -215,6 +247,32 @@ describe("what is going on", () => {
     ],
   ])("%s", (text, state) => {
     expect(activity(state, true).text).toBe(text);
+  });
+
+  it.each(["paused", "finished"] as const)(
+    "never says that nothing moves while a skill moves: %s",
+    (lifecycle) => {
+      const changed = (phase: "executing" | "idle"): StreamEvent => ({
+        type: "experiment_changed",
+        experiment: experiment({ lifecycle, phase }),
+      });
+      const moving = having(snapshot(), opened(1), closed(1), started, changed("executing"));
+      expect(activity(moving, true)).toEqual({ tone: "moving", text: `Finishing pick, then ${lifecycle}` });
+      // Also where only one of both is known.
+      expect(activity(next(moving, changed("idle")), true).tone).toBe("moving");
+      expect(activity(next(moving, ended), true)).toEqual({
+        tone: "moving",
+        text: `Finishing the skill, then ${lifecycle}`,
+      });
+      expect(activity(next(moving, ended, changed("idle")), true).tone).toBe("still");
+    },
+  );
+
+  it("says that it is evaluated while it is paused", () => {
+    const paused = experiment({ lifecycle: "paused", phase: "evaluating" });
+    expect(activity(having(snapshot({ experiment: paused, execution: execution(1) })), true).text).toBe(
+      "Evaluating",
+    );
   });
 
   it("doesn't ask for a judgement before the pictures are there", () => {

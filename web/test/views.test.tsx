@@ -19,6 +19,7 @@ function Page({ images, current }: { images: ImageStore; current: Proposal }) {
       drawn={drawn}
       failed={failed}
       overlay={drawn === current}
+      accepting={false}
       live={null}
       moving={false}
       skill={drawn === current ? current.skill : null}

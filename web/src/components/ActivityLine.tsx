@@ -1,5 +1,6 @@
 import { useEffect, useState } from "react";
 import type { Activity } from "../activity";
+import type { Hint } from "../useJudging";
 
 const SETTLED_MS = 500;
 
@@ -17,12 +18,14 @@ export interface ActivityLineProps {
   activity: Activity;
   /** Number of the proposal that waits on the screen. */
   number: number | null;
+  /** Why the newest press didn't count; it covers the activity for a while. */
+  hint: Hint | null;
   canUndo: boolean;
   onUndo: () => void;
 }
 
 /** What is going on now, and the way back from the last click. */
-export function ActivityLine({ activity, number, canUndo, onUndo }: ActivityLineProps) {
+export function ActivityLine({ activity, number, hint, canUndo, onUndo }: ActivityLineProps) {
   const spoken = useSettled(activity.text);
   return (
     <div className="now">
@@ -34,6 +37,9 @@ export function ActivityLine({ activity, number, canUndo, onUndo }: ActivityLine
       <p className="sr-only" aria-live="polite">
         {spoken}
       </p>
+      <div className="judge-hint" aria-live="assertive" data-testid="judge-hint">
+        {hint && <p key={hint.id}>{hint.text}</p>}
+      </div>
       <button
         type="button"
         className="button quiet"

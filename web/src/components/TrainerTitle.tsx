@@ -43,22 +43,36 @@ export function TrainerTitle({ experiment, session, onAsk }: TrainerTitleProps) 
     experiment.preset,
     `seed ${experiment.seed}`,
   ];
+  const verbs = (
+    <Verbs
+      experiment={experiment}
+      busy={busy}
+      onVerb={(verb) =>
+        verb === "finish" ? onAsk(finishQuestion(experiment.name, () => void run(verb))) : void run(verb)
+      }
+    />
+  );
+  const failed = experiment.lifecycle === "failed";
   return (
-    <div className="title-row">
-      <div className="title-text">
-        <div className="title-line">
-          <h1>{experiment.name}</h1>
-          <StatePill experiment={experiment} />
+    <>
+      {failed && (
+        <div className="banner" role="alert" data-testid="failed">
+          <div>
+            <b>This experiment failed.</b> {experiment.failure ?? "The service gave no reason; its log may."}
+          </div>
+          {verbs}
         </div>
-        <p className="soft">{facts.filter(Boolean).join(" · ")}</p>
+      )}
+      <div className="title-row">
+        <div className="title-text">
+          <div className="title-line">
+            <h1>{experiment.name}</h1>
+            <StatePill experiment={experiment} />
+          </div>
+          <p className="soft">{facts.filter(Boolean).join(" · ")}</p>
+        </div>
+        {!failed && verbs}
       </div>
-      <Verbs
-        experiment={experiment}
-        busy={busy}
-        onVerb={(verb) =>
-          verb === "finish" ? onAsk(finishQuestion(experiment.name, () => void run(verb))) : void run(verb)
-        }
-      />
-    </div>
+    </>
   );
 }

@@ -9,7 +9,7 @@ const ALLOWED: Record<Experiment["lifecycle"], Shown[]> = {
   created: ["start"],
   running: ["pause", "finish"],
   paused: ["resume", "finish"],
-  failed: ["resume", "finish"],
+  failed: ["resume"],
   finished: [],
   archived: [],
 };

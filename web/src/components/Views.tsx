@@ -30,6 +30,8 @@ export interface ViewsProps {
   drawn: Proposal | null;
   failed: boolean;
   overlay: boolean;
+  /** Whether a press counts now. */
+  accepting: boolean;
   live: number | null;
   moving: boolean;
   skill: string | null;
@@ -52,7 +54,12 @@ export function Views(props: ViewsProps) {
       </div>
     );
   return (
-    <div className="views" data-testid="views" data-proposal-id={open ? drawn.id : undefined}>
+    <div
+      className="views"
+      data-testid="views"
+      data-proposal-id={open ? drawn.id : undefined}
+      data-ready={open && props.accepting ? true : undefined}
+    >
       {drawn.views.map((view, index) => (
         <CameraView
           key={view.camera}

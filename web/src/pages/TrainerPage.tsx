@@ -16,9 +16,8 @@ import { TrainerTitle } from "../components/TrainerTitle";
 import { useDrawn, Views } from "../components/Views";
 import { ImageStore } from "../images";
 import { useSession } from "../session";
-import { chosenFor, judgeable, overlayWanted } from "../state";
-import { useDrawnAt } from "../useDrawnAt";
-import type { Value } from "../wire";
+import { chosenFor, overlayWanted } from "../state";
+import { useJudging } from "../useJudging";
 
 export function TrainerPage({ id }: { id: number }) {
   const { state, session } = useSession(id);
@@ -31,19 +30,14 @@ export function TrainerPage({ id }: { id: number }) {
   const current = drawn !== null && drawn === proposal;
   const overlay = current && overlayWanted(state);
   const drawnId = overlay && !drawn.closed_at ? drawn.id : null;
-  const clock = useDrawnAt(drawnId);
-  const ready = judgeable(state, drawnId);
+  const { ready, accepting, hint, judge } = useJudging(state, drawnId, (proposalId, value) =>
+    session.judge(proposalId, value),
+  );
   const judging = experiment?.lifecycle === "running" && !experiment.halted;
 
   useEffect(() => {
     if (experiment) document.title = `${experiment.name} · SEED`;
   }, [experiment]);
-
-  const judge = (value: Value, pressedAt: number) => {
-    if (!ready || drawnId === null || !clock.sawIt(pressedAt)) return;
-    clock.clicked(pressedAt);
-    session.judge(drawnId, value);
-  };
 
   if (state.fatal) return <ProblemCard problem={state.fatal} />;
   const now = activity(state, current);
@@ -64,6 +58,7 @@ export function TrainerPage({ id }: { id: number }) {
               drawn={drawn}
               failed={failed}
               overlay={overlay}
+              accepting={accepting}
               live={live}
               moving={state.execution !== null}
               skill={state.execution?.skill ?? (overlay ? drawn.skill : null)}
@@ -75,6 +70,7 @@ export function TrainerPage({ id }: { id: number }) {
               <ActivityLine
                 activity={now}
                 number={ready && drawn ? drawn.number : null}
+                hint={hint}
                 canUndo={undoable !== null}
                 onUndo={() => undoable && session.undo(undoable.id)}
               />

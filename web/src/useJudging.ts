@@ -1,0 +1,77 @@
+// Which presses count: those on a proposal that was on the screen long enough to be looked at. The others are told of.
+import { useEffect, useState } from "react";
+import { chosenFor, judgeable, type TrainerState } from "./state";
+import { useDrawnAt } from "./useDrawnAt";
+import type { Value } from "./wire";
+
+/** Nobody sees a picture and judges it in less time: such a press was meant for the proposal before. */
+export const LOOK_MS = 250;
+/** How long a hint stays; it fades at the end (trainer.css). */
+const HINT_MS = 3000;
+
+/** Why the newest press didn't count. */
+export interface Hint {
+  id: number;
+  text: string;
+}
+
+export interface Judging {
+  /** Whether the drawn proposal waits for a judgement. */
+  ready: boolean;
+  /** Whether a press counts now. */
+  accepting: boolean;
+  hint: Hint | null;
+  /** `pressedAt` in ms, as in `Event.timeStamp`. */
+  judge: (value: Value, pressedAt: number) => void;
+}
+
+/** What to say of a press that doesn't count; nothing where judging isn't on offer at all. */
+function whyNot(state: TrainerState, ready: boolean): string | null {
+  const { experiment, proposal } = state;
+  if (ready) return "Too fast, not counted: look at this one first.";
+  if (experiment?.lifecycle !== "running" || experiment.halted || experiment.teacher) return null;
+  if (state.execution) return "Not counted: nothing to judge while the robot moves.";
+  if (proposal && chosenFor(state, proposal.id) !== null)
+    return "Not counted: you have judged this one already.";
+  return "Not counted: the next proposal isn’t here yet.";
+}
+
+/** `drawnId`: the open proposal that is drawn with its own pictures. */
+export function useJudging(
+  state: TrainerState,
+  drawnId: number | null,
+  send: (proposalId: number, value: Value) => void,
+): Judging {
+  const clock = useDrawnAt(drawnId);
+  const [seenId, setSeenId] = useState<number | null>(null);
+  const [hint, setHint] = useState<Hint | null>(null);
+  const ready = judgeable(state, drawnId);
+
+  useEffect(() => {
+    if (drawnId === null) return;
+    const timer = setTimeout(() => setSeenId(drawnId), LOOK_MS);
+    return () => {
+      clearTimeout(timer);
+      setSeenId(null); // an undo brings the same proposal back, which is drawn anew then
+    };
+  }, [drawnId]);
+
+  useEffect(() => {
+    if (!hint) return;
+    const timer = setTimeout(() => setHint(null), HINT_MS);
+    return () => clearTimeout(timer);
+  }, [hint]);
+
+  const judge = (value: Value, pressedAt: number) => {
+    if (ready && drawnId !== null && clock.age(pressedAt) >= LOOK_MS) {
+      setHint(null);
+      clock.clicked(pressedAt);
+      send(drawnId, value);
+      return;
+    }
+    const text = whyNot(state, ready);
+    if (text !== null) setHint((last) => ({ id: (last?.id ?? 0) + 1, text }));
+  };
+
+  return { ready, accepting: ready && seenId === drawnId, hint, judge };
+}

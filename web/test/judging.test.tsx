@@ -1,0 +1,171 @@
+// A press counts for the proposal that somebody has looked at; one that doesn't count says so.
+import { act } from "react";
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { ActivityLine } from "../src/components/ActivityLine";
+import { JudgeBar } from "../src/components/JudgeBar";
+import { initial, reduce, type TrainerState } from "../src/state";
+import { LOOK_MS, useJudging } from "../src/useJudging";
+import type { Experiment, StreamEvent, Value } from "../src/wire";
+import { execution, experiment, feedback, proposal, snapshot } from "./messages";
+import { byTestId, press, show } from "./render";
+
+type Sent = [proposal: number, value: Value];
+
+function Page({ state, drawnId, sent }: { state: TrainerState; drawnId: number | null; sent: Sent[] }) {
+  const { ready, accepting, hint, judge } = useJudging(state, drawnId, (id, value) => sent.push([id, value]));
+  return (
+    <div data-testid="page" data-ready={accepting}>
+      <ActivityLine
+        activity={{ tone: "you", text: "" }}
+        number={null}
+        hint={hint}
+        canUndo={false}
+        onUndo={() => undefined}
+      />
+      <JudgeBar ready={ready} chosen={null} canUndo={false} onJudge={judge} onUndo={() => undefined} />
+    </div>
+  );
+}
+
+const having = (...events: StreamEvent[]): TrainerState =>
+  events.reduce((now, event) => reduce(now, { kind: "event", event }), initial);
+const waiting = (id: number, change: Partial<Experiment> = {}): TrainerState =>
+  having(snapshot({ proposal: proposal(id), experiment: experiment(change) }));
+
+const hint = () => byTestId("judge-hint").textContent;
+const accepting = () => byTestId("page").dataset.ready === "true";
+const pass = (ms: number) => act(async () => vi.advanceTimersByTime(ms));
+
+/** The `detail`-th click of a row with the mouse; its time stamp is the tests' clock's. */
+const clickOn = (testId: string, detail = 1) =>
+  act(async () => {
+    const event = new MouseEvent("click", { bubbles: true, cancelable: true, detail });
+    Object.defineProperty(event, "timeStamp", { value: performance.now() });
+    byTestId(testId).dispatchEvent(event);
+  });
+
+const drawn = (id: number, sent: Sent[]) => show(<Page state={waiting(id)} drawnId={id} sent={sent} />);
+
+describe("judging what was looked at", () => {
+  beforeEach(() => {
+    vi.useFakeTimers({ now: 1_700_000_000_000 });
+    vi.spyOn(Event.prototype, "timeStamp", "get").mockImplementation(() => performance.now());
+  });
+  afterEach(() => {
+    vi.restoreAllMocks();
+    vi.useRealTimers();
+  });
+
+  it("takes one label from a double click, and says that the second press wasn't counted", async () => {
+    const sent: Sent[] = [];
+    await drawn(1, sent);
+    await pass(1000);
+    await clickOn("bad");
+    await pass(30);
+    await drawn(2, sent);
+    await pass(80);
+    await clickOn("bad", 2);
+    expect(sent).toEqual([[1, -1]]);
+    expect(hint()).toBe("Too fast, not counted: look at this one first.");
+    expect(byTestId("judge-hint").getAttribute("aria-live")).toBe("assertive");
+  });
+
+  it.each(["3", "ArrowLeft", "1"])(
+    "takes no key either before the proposal was looked at: %s",
+    async (key) => {
+      const sent: Sent[] = [];
+      await drawn(1, sent);
+      await pass(LOOK_MS - 1);
+      await press(key);
+      expect(sent).toEqual([]);
+      expect(hint()).toContain("not counted");
+    },
+  );
+
+  it("takes every quick press that comes later, also one that belongs to a double click", async () => {
+    const sent: Sent[] = [];
+    for (const [id, act] of [
+      [1, () => clickOn("bad")],
+      [2, () => clickOn("bad", 2)],
+      [3, () => press("3")],
+      [4, () => clickOn("good", 3)],
+    ] as const) {
+      await drawn(id, sent);
+      await pass(LOOK_MS);
+      expect(accepting()).toBe(true);
+      await act();
+      expect(hint()).toBe("");
+    }
+    expect(sent).toEqual([
+      [1, -1],
+      [2, -1],
+      [3, -1],
+      [4, 1],
+    ]);
+  });
+
+  it("says that it accepts presses only once it does, and anew for a proposal that an undo brought back", async () => {
+    const sent: Sent[] = [];
+    await drawn(1, sent);
+    expect(accepting()).toBe(false);
+    await pass(LOOK_MS);
+    expect(accepting()).toBe(true);
+    await drawn(2, sent);
+    expect(accepting()).toBe(false);
+    await drawn(1, sent);
+    expect(accepting()).toBe(false);
+    await clickOn("good");
+    expect(sent).toEqual([]);
+  });
+
+  it("lets the hint fade, shows it anew at another press, and drops it at one that counts", async () => {
+    const sent: Sent[] = [];
+    await drawn(1, sent);
+    await press("3");
+    const first = byTestId("judge-hint").firstChild;
+    await press("3");
+    expect(byTestId("judge-hint").firstChild).not.toBe(first);
+    await pass(3000);
+    expect(hint()).toBe("");
+    await drawn(2, sent);
+    await press("3");
+    expect(hint()).not.toBe("");
+    await pass(LOOK_MS);
+    await press("3");
+    expect(sent).toEqual([[2, -1]]);
+    expect(hint()).toBe("");
+  });
+
+  it.each([
+    [
+      "you have judged this one already",
+      having(snapshot({ proposal: proposal(1) }), {
+        type: "acknowledged",
+        request_id: "click-1",
+        feedback: feedback(1),
+      }),
+    ],
+    ["nothing to judge while the robot moves", having(snapshot({ execution: execution(1) }))],
+    ["the next proposal isn’t here yet", having(snapshot())],
+  ])("says why a press between two proposals isn't counted: %s", async (why, state) => {
+    const sent: Sent[] = [];
+    await show(<Page state={state} drawnId={null} sent={sent} />);
+    await press("3");
+    expect(hint()).toBe(`Not counted: ${why}.`);
+    expect(sent).toEqual([]);
+  });
+
+  it.each([
+    ["paused", { lifecycle: "paused" }],
+    ["halted", { halted: true }],
+    ["left to a teacher", { teacher: "synthetic" }],
+  ] as const)("has nothing to say where nobody is asked: %s", async (_, change) => {
+    const sent: Sent[] = [];
+    await show(<Page state={waiting(1, change)} drawnId={1} sent={sent} />);
+    await pass(LOOK_MS);
+    await press("3");
+    expect(sent).toEqual([]);
+    expect(hint()).toBe("");
+    expect(accepting()).toBe(false);
+  });
+});
