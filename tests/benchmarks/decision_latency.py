@@ -27,8 +27,8 @@ LABELS = 300
 """Stored before the first press, so that every gradient step has its full batch (the table's 256)."""
 PRESSES = 200
 BAR_MS = 60.0
-FASTEST_S, SLOWEST_S = 0.15, 0.6
-"""A quick trainer looks at each proposal for about this long."""
+FASTEST_S, SLOWEST_S = 0.3, 0.6
+"""A quick trainer looks at each proposal for about this long; the page counts no press within 0.25 s."""
 TRAINING = {"think_time_updates": 10_000}
 """The learner never runs out of gradient steps: every press finds it training."""
 

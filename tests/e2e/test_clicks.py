@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from playwright.sync_api import Page, expect
 
-from tests.e2e.trainer import ONE_KEPT, Opener, TrainerPage
+from tests.e2e.trainer import ONE_KEPT, START_MS, Opener, TrainerPage
 from tests.live import LiveService
 
 BAD_ONLY = {"preset": "stubborn"}
@@ -33,7 +33,7 @@ def test_an_offline_click_is_kept_and_sent_once(opener: Opener) -> None:
     proposal = trainer.drawn()
     go_offline(trainer)
     trainer.press(-1)
-    trainer.press(1)  # judged already: a second press is no second click
+    trainer.press_anyway(1)  # judged already: a second press is no second click
     expect(trainer.connection).to_contain_text(ONE_KEPT)
     assert clicks(trainer) == []
     go_online(trainer)
@@ -106,6 +106,7 @@ def test_nothing_moves_while_the_mode_is_propose_only(opener: Opener) -> None:
 def test_a_held_key_judges_one_proposal(opener: Opener) -> None:
     trainer = opener(**BAD_ONLY)
     first = trainer.drawn()
+    trainer.looked_at()
     trainer.page.keyboard.down("3")
     second = trainer.drawn(first)
     for _ in range(10):
@@ -114,6 +115,60 @@ def test_a_held_key_judges_one_proposal(opener: Opener) -> None:
     trainer.page.evaluate("() => new Promise(requestAnimationFrame)")
     assert trainer.drawn() == second
     assert clicks(trainer) == [(first, -1, "stored")]
+
+
+PRESS_WHEN_DRAWN = """name => new Promise(done => {
+    const views = document.querySelector('[data-testid=views]');
+    const button = document.querySelector(`[data-testid=${name}]`);
+    const first = views.dataset.proposalId;
+    new MutationObserver((_, observer) => {
+        if (!views.dataset.proposalId || views.dataset.proposalId === first) return;
+        observer.disconnect();
+        button.click();
+        done();
+    }).observe(views, {attributes: true});
+    button.click();
+})"""
+"""A double click whose second press hits the next proposal in the moment that it is drawn."""
+
+
+def test_a_double_click_judges_one_proposal_and_says_so(opener: Opener) -> None:
+    trainer = opener(**BAD_ONLY)
+    first = trainer.drawn()
+    trainer.looked_at()
+    trainer.page.evaluate(PRESS_WHEN_DRAWN, "bad")
+    expect(trainer.test_id("judge-hint")).to_contain_text("Too fast, not counted")
+    second = trainer.drawn(first)
+    assert clicks(trainer) == [(first, -1, "stored")]
+    trainer.click(-1)  # one that was looked at counts, and takes the hint away
+    expect(trainer.test_id("judge-hint")).to_be_empty()
+    trainer.drawn(second)
+    assert clicks(trainer) == [(first, -1, "stored"), (second, -1, "stored")]
+
+
+def test_a_pause_during_a_motion_says_that_it_still_moves(opener: Opener, service: LiveService) -> None:
+    trainer = opener(mode="execute_approved", adapter_settings={"step_seconds": 0.05})
+    trainer.drawn()
+    trainer.press(1)
+    expect(trainer.activity).to_contain_text("Executing")
+    trainer.test_id("pause").click()
+    expect(trainer.test_id("lifecycle")).to_have_text("paused")
+    expect(trainer.activity).to_contain_text("Finishing pick, then paused")
+    expect(trainer.activity).to_have_attribute("data-tone", "moving")
+    expect(trainer.activity).to_contain_text("Nothing moves", timeout=START_MS)
+    (execution,) = service.rows("SELECT outcome FROM execution WHERE experiment_id = ?", trainer.experiment)
+    assert execution["outcome"] == "succeeded"
+
+
+def test_undo_ends_with_a_pause(opener: Opener) -> None:
+    trainer = opener(**BAD_ONLY)
+    first = trainer.drawn()
+    trainer.press(-1)
+    trainer.drawn(first)
+    expect(trainer.test_id("undo")).to_be_enabled()
+    trainer.test_id("pause").click()
+    expect(trainer.test_id("lifecycle")).to_have_text("paused")
+    expect(trainer.test_id("undo")).to_be_disabled()
 
 
 def test_two_pages_of_one_experiment_agree(opener: Opener, page: Page, service: LiveService) -> None:

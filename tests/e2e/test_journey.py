@@ -153,7 +153,7 @@ def test_emergency_stop_halts_a_moving_arm_until_it_is_rearmed(opener: Opener, s
     trainer.page.reload()
     trainer.connected()
     expect(trainer.test_id("halted")).to_be_visible()
-    trainer.press(1)
+    trainer.press_anyway(1)
     trainer.test_id("rearm").click()
     trainer.test_id("cancel").click()
     expect(trainer.test_id("halted")).to_be_visible()

@@ -73,12 +73,22 @@ class TrainerPage:
         )
         return int(self.views.get_attribute("data-proposal-id") or 0)
 
+    def looked_at(self) -> None:
+        """Wait until the drawn proposal was on the screen long enough for a press to count."""
+        expect(self.views).to_have_attribute("data-ready", "true", timeout=START_MS)
+
     def press(self, value: int, *, arrow: bool = False) -> None:
-        """Judge with a key."""
+        """Judge with a key, as soon as it counts."""
+        self.looked_at()
+        self.press_anyway(value, arrow=arrow)
+
+    def press_anyway(self, value: int, *, arrow: bool = False) -> None:
+        """Press the key whether it counts or not."""
         self.page.keyboard.press(KEYS[value][int(arrow)])
 
     def click(self, value: int) -> None:
-        """Judge with the mouse."""
+        """Judge with the mouse, as soon as it counts."""
+        self.looked_at()
         self.test_id(BUTTONS[value]).click()
 
     def stored(self, proposal: int) -> dict[str, Any]:
