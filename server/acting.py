@@ -7,12 +7,16 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
+from functools import cached_property
 
 import numpy as np
 
 from robot_adapters import registry
 from robot_adapters.base import InvalidCall, SafetyViolation, SkillCall, check_call
-from server.crew import Crew, Done, Seen
+from robot_adapters.tasks.base import Task
+from server.crew import Crew
+from server.crew_values import Done, Seen
+from server.owed import Owed
 from server.schemas import (
     Execution,
     ExecutionEnded,
@@ -23,7 +27,7 @@ from server.schemas import (
     ProposalClosed,
     StreamEvent,
 )
-from server.store import Store
+from server.store import Conflict, Store, StoreError
 from server.store_values import NewProposal, NewView, Purpose
 from server.worker import CommandFailed, WorkerDied
 
@@ -35,13 +39,25 @@ Publish = Callable[[StreamEvent], None]
 class Acting:
     """Draws proposals and moves the robot by approved ones, for one experiment."""
 
-    def __init__(self, experiment: Experiment, store: Store, crew: Crew, publish: Publish) -> None:
+    def __init__(self, experiment: Experiment, store: Store, crew: Crew, publish: Publish, owed: Owed) -> None:
+        self._experiment = experiment
         self._experiment_id = experiment.id
         self._store = store
         self._crew = crew
         self._publish = publish
-        self.task = registry.task(experiment.task)
-        self.simulated = registry.adapter(experiment.adapter).simulated
+        self._owed = owed
+
+    # looked up when they are needed: an experiment whose plug-in is gone can still be halted and archived
+
+    @cached_property
+    def task(self) -> Task:
+        """The experiment's task."""
+        return registry.task(self._experiment.task)
+
+    @cached_property
+    def simulated(self) -> bool:
+        """Whether the robot is a simulated one."""
+        return registry.adapter(self._experiment.adapter).simulated
 
     async def draw(self, seen: Seen, *, purpose: Purpose = "training", deterministic: bool = False) -> NewProposal:
         """Sample a ~ pi_phi(.|s), x ~ pi_psi(.|s, a), and draw the call on the images of the observation."""
@@ -75,11 +91,14 @@ class Acting:
         self._publish(ProposalClosed(proposal=proposal.model_copy(update={"gate": decision})))
         return execution
 
-    async def move(self, proposal: Proposal, execution: Execution) -> Done:
-        """Run exactly the approved call and store what came of it.
+    async def move(
+        self, proposal: Proposal, execution: Execution, heed: Callable[[Done], None] = lambda _: None
+    ) -> Done:
+        """Run exactly the approved call and store what came of it; `heed` is told of it before.
 
         Raises:
             WorkerDied: the robot worker went away in the middle; the execution is stored as interrupted.
+            StoreError: what came of it can't be stored now; it will be as soon as it can.
         """
         self._publish(ExecutionStarted(execution=execution))
         try:
@@ -90,6 +109,7 @@ class Acting:
         except WorkerDied:
             await self._end(execution.id, ExecutionOutcome.INTERRUPTED, None)
             raise
+        heed(done)
         outcome = ExecutionOutcome.SUCCEEDED if done.arrived else ExecutionOutcome.FAILED
         await self._end(execution.id, ExecutionOutcome.STOPPED if done.stopped else outcome, done)
         return done
@@ -100,15 +120,25 @@ class Acting:
 
     async def _end(self, execution_id: int, outcome: ExecutionOutcome, done: Done | None) -> None:
         violations = [] if done is None else [SafetyViolation(kind, detail) for kind, detail in done.violations]
-        execution = await self._store.end_execution(
-            execution_id,
-            outcome,
-            end_reason="worker_died" if done is None else done.end,
-            low_level_steps=0 if done is None else done.low_level_steps,
-            task_success=done is not None and done.task_success,
-            violations=violations,
-        )
-        self._publish(ExecutionEnded(execution=execution, violations=[f"{v.kind}: {v.detail}" for v in violations]))
+
+        async def store() -> None:
+            execution = await self._store.end_execution(
+                execution_id,
+                outcome,
+                end_reason="worker_died" if done is None else done.end,
+                low_level_steps=0 if done is None else done.low_level_steps,
+                task_success=done is not None and done.task_success,
+                violations=violations,
+            )
+            self._publish(ExecutionEnded(execution=execution, violations=[f"{v.kind}: {v.detail}" for v in violations]))
+
+        try:
+            await store()
+        except Conflict:  # it has an outcome
+            raise
+        except StoreError:
+            self._owed.add(f"what came of execution {execution_id}: {outcome}", store)
+            raise
 
     def _inside(self, call: SkillCall) -> bool:
         try:

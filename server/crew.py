@@ -7,14 +7,15 @@ label. Labels that arrive while it is away are kept here, so that none falls bet
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import logging
+import math
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Literal
 
 from robot_adapters.base import SkillCall
+from server.crew_values import Done, Idea, Picture, Saved, Seen
 from server.schemas import Experiment, FrameHeader, Overlay, WorkerChanged
 from server.settings import Settings
 from server.store import Store
@@ -24,73 +25,16 @@ from server.worker import CommandFailed, Worker, WorkerDied, WorkerError
 log = logging.getLogger(__name__)
 
 QUICK = 10.0
-"""Seconds for commands that are answered within milliseconds on a machine that is well."""
+"""Seconds for commands that are answered within milliseconds on a machine that is well, where no deadline is shorter.
+
+A learner looks at them between any two gradient steps, so they wait for one at most.
+"""
 DEATHS, DEATH_WINDOW = 3, 60.0
 """More deaths of one worker than this within so many seconds, and the experiment has failed."""
 
 
 class TooManyDeaths(WorkerError):
     """A worker that dies again and again: restarting it is of no use."""
-
-
-@dataclass(frozen=True)
-class Picture:
-    """One camera's still image of an observation; `image` is the hash of its JPEG."""
-
-    camera: str
-    image: str
-    width: int
-    height: int
-
-
-@dataclass(frozen=True)
-class Seen:
-    """An observation as the robot worker reports it. state: (n,) in the task's units; success: the task is solved."""
-
-    id: str
-    state: tuple[float, ...]
-    taken_at: float
-    pictures: tuple[Picture, ...]
-    success: bool
-
-
-@dataclass(frozen=True)
-class Idea:
-    """A suggestion as the learner worker reports it."""
-
-    call: SkillCall
-    predicted_feedback: float
-    skill_probabilities: dict[str, float]
-    policy_version: int
-
-
-@dataclass(frozen=True)
-class Done:
-    """What one execution did. Times are CLOCK_MONOTONIC seconds; None where there was no set-point."""
-
-    end: str
-    arrived: bool
-    stopped: bool
-    low_level_steps: int
-    task_success: bool
-    violations: tuple[tuple[str, str], ...]
-    first_set_point_at: float | None = None
-    last_set_point_at: float | None = None
-
-    @classmethod
-    def nothing(cls, why: str, *, stopped: bool) -> Done:
-        """The robot worker refused the call."""
-        return cls(why, arrived=False, stopped=stopped, low_level_steps=0, task_success=False, violations=())
-
-
-@dataclass(frozen=True)
-class Saved:
-    """A written checkpoint."""
-
-    path: Path
-    policy_version: int
-    last_feedback_id: int
-    sha256: str
 
 
 OnFrame = Callable[[FrameHeader, bytes], None]
@@ -118,6 +62,7 @@ class Crew:
         self._lifted = 0
         self._missed: list[StoredLabel] = []
         self._forgotten: list[int] = []
+        self._told: set[asyncio.Task[None]] = set()
         self.metrics: dict[str, float] = {}
         """What the learner's newest gradient step reported."""
         self.policy_version = 0
@@ -176,6 +121,17 @@ class Crew:
         self._ready.clear()
         await asyncio.gather(*(worker.close() for worker in workers))
 
+    async def _retire(self, role: Role) -> None:
+        """End a worker whose state can't be trusted any more; the next `bring_up` starts a new one."""
+        self._ready.discard(role)
+        if worker := self._workers.pop(role, None):
+            await worker.close()
+
+    async def distrust(self, error: Exception) -> None:
+        """End a learner that has refused to go on: the next one starts from the checkpoint and the stored labels."""
+        if isinstance(error, CommandFailed) and error.worker == "learner":
+            await self._retire("learner")
+
     def forgive(self) -> None:
         """Forget earlier deaths: someone has looked at the failure and resumes."""
         self._deaths = {"robot": [], "learner": []}
@@ -211,11 +167,11 @@ class Crew:
 
     async def observe(self) -> Seen:
         """Look, without moving."""
-        return _seen(await self._robot("observe"))
+        return _seen(await self._robot("observe", QUICK))
 
     async def overlay(self, call: SkillCall) -> dict[str, Overlay]:
         """The call drawn for every camera of the newest observation."""
-        reply = await self._robot("overlay", skill=call.skill, parameters=list(call.parameters))
+        reply = await self._robot("overlay", QUICK, skill=call.skill, parameters=list(call.parameters))
         return {camera: Overlay(**drawn) for camera, drawn in reply["overlays"].items()}
 
     async def execute(self, proposal_id: int, execution_id: int, digest: str, call: SkillCall) -> Done:
@@ -245,13 +201,22 @@ class Crew:
 
     async def propose(self, state: tuple[float, ...], *, deterministic: bool = False) -> Idea:
         """Suggest a call for this state."""
-        reply = await self._learner("propose", state=list(state), deterministic=deterministic)
+        reply = await self._learner("propose", QUICK, state=list(state), deterministic=deterministic)
         call = SkillCall(reply["skill"], tuple(reply["parameters"]))
         return Idea(call, reply["predicted_feedback"], reply["skill_probabilities"], reply["policy_version"])
 
     async def flush(self) -> None:
         """Wait until every owed gradient step is taken."""
         await self._learner("flush")
+
+    async def newest_policy_version(self) -> int:
+        """Gradient steps taken, once those owed are taken too; of the newest checkpoint if none learns now."""
+        if self.learner_ready:
+            with contextlib.suppress(WorkerError):
+                await self.flush()
+                return self.policy_version
+        newest = await self._store.latest_checkpoint(self._experiment.id)
+        return newest.policy_version if newest is not None else 0
 
     async def save(self) -> Saved:
         """Write a checkpoint below the data directory."""
@@ -338,19 +303,27 @@ class Crew:
         if "learner" not in self._ready or learner is None or not learner.alive:
             missed.append(what)
             return
+        deadline = min(QUICK, self._settings.learner_deadline)
+        reply = learner.call(command, deadline=deadline, **arguments)  # it is sent by now, before anything else
 
-        def settled(reply: asyncio.Future[dict[str, Any]]) -> None:
-            error = None if reply.cancelled() else reply.exception()
-            if isinstance(error, CommandFailed):
-                log.error("experiment %d: the learner refused to %s: %s", self._experiment.id, command, error)
+        async def hear() -> None:
+            try:
+                await reply
+            except WorkerDied:
+                pass  # whoever waits for the experiment's next step hears of it; the label is stored
+            except CommandFailed as error:
+                log.warning("experiment %d: the learner refused to %s: %s", self._experiment.id, command, error)
 
-        learner.send(command, **arguments).add_done_callback(settled)
+        told = asyncio.create_task(hear(), name=f"tell the learner of experiment {self._experiment.id}")
+        self._told.add(told)
+        told.add_done_callback(self._told.discard)
 
-    async def _robot(self, command: str, **arguments: Any) -> dict[str, Any]:
-        return await self._worker("robot").call(command, deadline=self._settings.robot_deadline, **arguments)
+    async def _robot(self, command: str, most: float = math.inf, **arguments: Any) -> dict[str, Any]:
+        deadline = min(most, self._settings.robot_deadline)
+        return await self._worker("robot").call(command, deadline=deadline, **arguments)
 
-    async def _learner(self, command: str, **arguments: Any) -> dict[str, Any]:
-        deadline = self._settings.learner_deadline
+    async def _learner(self, command: str, most: float = math.inf, **arguments: Any) -> dict[str, Any]:
+        deadline = min(most, self._settings.learner_deadline)
         status = await self._worker("learner").call(command, deadline=deadline, **arguments)
         self.metrics, self.policy_version = status["metrics"], status["policy_version"]
         return status

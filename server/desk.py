@@ -10,6 +10,7 @@ import asyncio
 import contextlib
 import time
 from collections.abc import Callable
+from datetime import UTC, datetime
 
 from server.acting import Publish
 from server.crew import Crew
@@ -137,6 +138,16 @@ class Desk:
                 if closed.close_reason is not CloseReason.JUDGED:
                     self.open = None
                     self._publish(ProposalClosed(proposal=closed))
+        self.wake()
+
+    def drop(self) -> None:
+        """Put away what lies here, where the store can't be told: it closes a proposal with the verb that follows."""
+        if self.open is not None:
+            closed = {"close_reason": CloseReason.INTERRUPTED, "closed_at": datetime.now(UTC)}
+            self._publish(ProposalClosed(proposal=self.open.model_copy(update=closed)))
+            self.open = None
+        self.drop_judged()
+        self.forget_ahead()
         self.wake()
 
     def drop_judged(self) -> None:

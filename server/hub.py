@@ -8,12 +8,14 @@ from collections import defaultdict
 from datetime import UTC, datetime
 from typing import Literal
 
+from server.lifecycle import MOVING
 from server.publisher import Publisher
 from server.runner import Runner
 from server.schemas import (
     Evaluation,
     EvaluationChanged,
     EvaluationCreate,
+    ExecutionEnded,
     Experiment,
     ExperimentChanged,
     ExperimentPage,
@@ -24,7 +26,7 @@ from server.schemas import (
     Snapshot,
 )
 from server.settings import Settings
-from server.store import Conflict, NotFound, Store
+from server.store import Conflict, NotFound, Receipt, Store, StoreError
 
 log = logging.getLogger(__name__)
 
@@ -51,8 +53,12 @@ class Hub:
 
     async def close(self) -> None:
         """Pause what runs and end all workers, within about two seconds."""
-        await asyncio.gather(*(self._close(experiment_id, runner) for experiment_id, runner in self._runners.items()))
+        closing = (self._close(experiment_id, runner) for experiment_id, runner in self._runners.items())
+        outcomes = await asyncio.gather(*closing, return_exceptions=True)
         self._runners.clear()
+        for outcome in outcomes:
+            if outcome is not None:
+                raise outcome
 
     # --- looking ------------------------------------------------------------------------------------------------
 
@@ -90,7 +96,26 @@ class Hub:
     def worker_pids(self, experiment_id: int) -> dict[str, int]:
         """Process ids of the experiment's living workers, by role."""
         runner = self._runners.get(experiment_id)
-        return {} if runner is None else runner.worker_pids
+        return {} if runner is None else runner.crew.pids
+
+    async def troubles(self) -> dict[int, str]:
+        """What keeps running experiments from going on, and what could not be stored, by experiment."""
+        found = {}
+        for experiment_id, runner in self._runners.items():
+            if runner.standing.owed:
+                found[experiment_id] = "what has happened could not be stored yet; free space where the database lies"
+        cursor = None
+        while True:
+            page = await self.views(cursor, 200)
+            for item in page.items:
+                runner_of = self._runners.get(item.id)
+                alive = runner_of is not None and runner_of.busy
+                # a verb that is just being carried out starts or ends the loop
+                if item.lifecycle is Lifecycle.RUNNING and not alive and not self._verbs[item.id].locked():
+                    found.setdefault(item.id, "it should run and doesn't; pause and resume it")
+            cursor = page.next_cursor
+            if cursor is None:
+                return found
 
     # --- verbs --------------------------------------------------------------------------------------------------
 
@@ -108,17 +133,21 @@ class Hub:
                 raise Conflict(
                     f"can't {verb} an experiment while it is evaluated", remedy="wait for its end, or halt it"
                 )
-            stops = runner.stops
+            # what has happened already is stored first
+            await runner.standing.owed.settle()
+            if verb in MOVING:
+                runner.check(verb)
+            stops = runner.crew.stops
             # together with the loop's own steps, so that none of them meets a state that it didn't expect
             async with runner.desk.turn:
-                experiment = await self._store_verb(experiment_id, verb)
+                experiment = await self._store_verb(runner, experiment_id, verb)
                 if verb in ("pause", "finish", "archive"):
                     runner.leave()
             await self._follow(runner, verb, until, stops)
             runner.changed(experiment)
             return runner.experiment
 
-    async def evaluate(self, experiment_id: int, body: EvaluationCreate) -> Evaluation:
+    async def evaluate(self, experiment_id: int, body: EvaluationCreate, receipt: Receipt | None = None) -> Evaluation:
         """Start rollouts of the deterministic policy; they go on in the background.
 
         Raises:
@@ -130,12 +159,15 @@ class Hub:
                 raise Conflict("an evaluation of this experiment goes on", remedy="wait for its end, or halt it")
             if not runner.simulated:
                 raise Conflict("evaluations move simulated robots only", remedy="judge its proposals yourself")
-            await self.store.transition(experiment_id, "evaluate")
+            await runner.standing.owed.settle()
+            runner.check("evaluate")
+            await self._store_verb(runner, experiment_id, "evaluate")
             evaluation = await self.store.create_evaluation(
                 experiment_id,
                 rollouts=body.rollouts,
                 seed=body.seed,
-                policy_version=await runner.policy_version(),
+                policy_version=await runner.crew.newest_policy_version(),
+                receipt=receipt,
             )
             self._publisher.publish(experiment_id, EvaluationChanged(evaluation=evaluation, done=0))
             runner.evaluate(evaluation)
@@ -186,21 +218,32 @@ class Hub:
 
     async def _halt(self, experiment_id: int) -> Experiment:
         """Emergency stop: the robot first, then the database, then everyone is told."""
-        runner = self._runners.get(experiment_id)
-        if runner is not None:
-            runner.stop()
-        experiment = await self.store.halt(experiment_id)
-        if runner is None:
-            runner = await self._runner(experiment_id)
-            runner.stop()
-        runner.changed(experiment)
-        await runner.desk.withdraw()
+        runner = self._runners.get(experiment_id) or await self._runner(experiment_id)
+        runner.stop()
+        try:
+            experiment = await self.store.halt(experiment_id)
+        except StoreError as error:
+            # it is stopped all the same, and everyone is told so
+            log.error("experiment %d: the emergency stop can't be stored for now: %s", experiment_id, error)  # noqa: TRY400
+            runner.standing.owe_halt()
+            runner.desk.drop()
+        else:
+            runner.changed(experiment)
+            await runner.desk.withdraw()
         return runner.experiment
 
-    async def _store_verb(self, experiment_id: int, verb: Act) -> Experiment:
+    async def _store_verb(self, runner: Runner, experiment_id: int, verb: Act | Literal["evaluate"]) -> Experiment:
         if verb == "rearm":
-            return await self.store.rearm(experiment_id)
-        return await self.store.transition(experiment_id, verb)
+            # a stop may be latched here that has not reached the database
+            return await self.store.rearm(experiment_id, latched=runner.crew.halted)
+        if verb not in MOVING or verb == "reset" or runner.busy:
+            return await self.store.transition(experiment_id, verb)
+        # nothing of it goes on: what has no end in the database never got it written
+        left = await self.store.running_execution(experiment_id)
+        experiment = await self.store.transition(experiment_id, verb, settle=True)
+        if left is not None:
+            self._publisher.publish(experiment_id, ExecutionEnded(execution=await self.store.execution(left.id)))
+        return experiment
 
     async def _follow(self, runner: Runner, verb: Act, until: int | None, stops: int) -> None:
         """What a stored verb means for the runner. A re-arm lifts the stops that were there when it was asked for."""
@@ -208,6 +251,8 @@ class Hub:
             runner.go(until=until)
         elif verb == "rearm":
             await runner.rearm(stops)
+            if runner.crew.halted:  # by a stop since then, which may have been stored before this verb lifted it
+                runner.standing.owe_halt()
         elif verb == "reset":
             await runner.reset()
         elif verb in ("pause", "finish"):
@@ -218,9 +263,11 @@ class Hub:
     async def _close(self, experiment_id: int, runner: Runner) -> None:
         async with self._verbs[experiment_id]:
             runner.leave()
-            if (await self.store.experiment(experiment_id)).lifecycle is Lifecycle.RUNNING:
-                runner.changed(await self.store.transition(experiment_id, "pause"))
-            await runner.close(grace=CLOSE_GRACE)
+            try:
+                if (await self.store.experiment(experiment_id)).lifecycle is Lifecycle.RUNNING:
+                    runner.changed(await self.store.transition(experiment_id, "pause"))
+            finally:
+                await runner.close(grace=CLOSE_GRACE)
 
     async def _runner(self, experiment_id: int) -> Runner:
         if experiment_id not in self._runners:
@@ -231,4 +278,4 @@ class Hub:
 
     def _live(self, experiment: Experiment) -> Experiment:
         runner = self._runners.get(experiment.id)
-        return experiment if runner is None else experiment.model_copy(update={"phase": runner.phase})
+        return experiment if runner is None else runner.standing.live(experiment)

@@ -13,7 +13,7 @@ from fastapi import Header, Request, Response
 from fastapi.responses import JSONResponse
 from pydantic import BaseModel
 
-from server.store import Store
+from server.store import Receipt, Store
 
 IdempotencyKey = Annotated[
     str | None,
@@ -31,15 +31,17 @@ _locks: WeakValueDictionary[str, asyncio.Lock] = WeakValueDictionary()
 
 
 async def once(
-    store: Store, request: Request, key: str | None, status: int, act: Callable[[], Awaitable[BaseModel]]
+    store: Store, request: Request, key: str | None, status: int, act: Callable[[Receipt | None], Awaitable[BaseModel]]
 ) -> Response:
     """The answer of `act`, or the stored one where this key was used before.
+
+    `act` stores its answer under the receipt in the transaction of what it did: no crash comes between.
 
     Raises:
         Conflict: the key was used with another body.
     """
     if key is None:
-        return JSONResponse((await act()).model_dump(mode="json"), status)
+        return JSONResponse((await act(None)).model_dump(mode="json"), status)
     route = f"{request.method} {request.url.path}"
     lock = _locks.setdefault(f"{route} {key}", asyncio.Lock())
     async with lock:  # the same key twice at the same moment: the second waits for the first
@@ -47,9 +49,8 @@ async def once(
         stored = await store.idempotent(key, route, digest)
         if stored is not None:
             return JSONResponse(stored.body, stored.status)
-        body = (await act()).model_dump(mode="json")
-        await store.remember(key, route, digest, status, body)
-        return JSONResponse(body, status)
+        made = await act(Receipt(key, route, digest, status))
+        return JSONResponse(made.model_dump(mode="json"), status)
 
 
 def _canonical(body: bytes) -> bytes:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from uuid import uuid4
 
 import numpy as np
 
@@ -23,11 +24,11 @@ class Judge:
         self._name = f"teacher:{experiment.teacher}"
         self._seed = experiment.seed
         self._desk = desk
-        self._judged: int | None = None
+        self._judged: set[int] = set()
 
     def has_judged(self, proposal: Proposal) -> bool:
-        """Whether this was the last one that it judged."""
-        return self._judged == proposal.id
+        """Whether it has."""
+        return proposal.id in self._judged
 
     async def judge(self, proposal: Proposal, call: SkillCall, leave: asyncio.Event) -> None:
         """Click on the open proposal, unless it is closed, or the loop is to end, while the teacher still thinks.
@@ -39,6 +40,7 @@ class Judge:
         judgement = self._teacher.judge(case)
         if judgement.delay > 0 and not await self._desk.wait(judgement.delay, leave):
             return
-        self._judged = proposal.id
-        click = FeedbackCreate(click_id=f"teacher-{proposal.id}", value=judgement.value, trainer=self._name)
+        self._judged.add(proposal.id)
+        # the proposal may have been judged before and taken back: this is another click
+        click = FeedbackCreate(click_id=f"teacher-{uuid4()}", value=judgement.value, trainer=self._name)
         await self._desk.feedback(proposal.id, click, "teacher")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import logging
 from collections.abc import Callable, Coroutine
 from dataclasses import dataclass
@@ -121,9 +122,11 @@ class Ledger:
                 last_feedback_id=saved.last_feedback_id,
                 sha256=saved.sha256,
             )
-        except WorkerError as error:
+        except (WorkerError, StoreError, OSError) as error:
             self._unsaved += unsaved
             log.warning("experiment %d: no checkpoint: %s", self._id, error)
+            with contextlib.suppress(StoreError):
+                await self._store.add_event(self._id, "checkpoint_failed", {"detail": str(error)})
 
 
 def values_of(counters: Counters, predicted_feedback: float, label: int) -> dict[str, float]:

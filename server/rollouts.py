@@ -9,7 +9,8 @@ from __future__ import annotations
 import asyncio
 
 from server.acting import Acting, Publish
-from server.crew import Crew, Seen
+from server.crew import Crew
+from server.crew_values import Seen
 from server.schemas import Evaluation, EvaluationChanged
 from server.store import Store
 from server.store_values import EpisodeOutcome

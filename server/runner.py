@@ -10,23 +10,26 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import logging
-from collections.abc import Callable, Coroutine
+from collections.abc import Coroutine
+from functools import cached_property
 from typing import Any, Literal
 
 from agent.algorithm import AgentError
 from robot_adapters.base import AdapterError
 from server.acting import Acting
-from server.crew import Crew, Done, Seen
+from server.course import Course, Work
+from server.crew import Crew
+from server.crew_values import Done, Seen
 from server.desk import Desk
 from server.judging import Judge
 from server.ledger import Ledger
+from server.lifecycle import Verb
 from server.publisher import Publisher
 from server.rollouts import roll_out
 from server.schemas import (
     CloseReason,
     Evaluation,
     Experiment,
-    ExperimentChanged,
     Lifecycle,
     Phase,
     Proposal,
@@ -35,6 +38,7 @@ from server.schemas import (
 )
 from server.seeds import episode_seed
 from server.settings import Settings
+from server.standing import Standing
 from server.store import Conflict, Store, StoreError
 from server.store_values import EpisodeOutcome, NewProposal
 from server.violations import Response, respond
@@ -50,27 +54,26 @@ class Runner:
     """Runs one experiment. Its public methods are the hub's; all of it lives on one event loop."""
 
     def __init__(self, experiment: Experiment, store: Store, settings: Settings, publisher: Publisher) -> None:
-        self.experiment = experiment
         self._store = store
         self._publisher = publisher
-        self._crew = Crew(
+        self.crew = Crew(
             experiment,
             store,
             settings,
             on_frame=lambda header, jpeg: publisher.publish_frame(experiment.id, header, jpeg),
             on_change=self._publish,
         )
-        self._acting = Acting(experiment, store, self._crew, self._publish)
+        self.standing = Standing(experiment, store, publish=self._publish, halted=lambda: self.crew.halted)
+        self._acting = Acting(experiment, store, self.crew, self._publish, self.standing.owed)
         self._ledger = Ledger(
             experiment,
             store,
-            self._crew,
+            self.crew,
             checkpoint_every=settings.checkpoint_every,
             publish=self._publish,
             changed=self.changed,
         )
-        self._task: asyncio.Task[None] | None = None
-        self._leave = asyncio.Event()
+        self._course = Course(f"experiment {experiment.id}")
         self._evaluating = False
         self._until: int | None = None
         # the episode that goes on, and what was seen last in it; None: reset, or look again
@@ -78,20 +81,24 @@ class Runner:
         self._executed = 0
         self._seen: Seen | None = None
         self._reset_wanted = False
-        self.desk = Desk(store, self._crew, self._ledger, self._publish, lambda: self.experiment)
-        self._judge = Judge(experiment, self._acting.task, self.desk) if experiment.teacher else None
+        self.desk = Desk(store, self.crew, self._ledger, self._publish, lambda: self.experiment)
 
     # --- what the hub asks --------------------------------------------------------------------------------------
 
     @property
+    def experiment(self) -> Experiment:
+        """As everyone is told of it."""
+        return self.standing.experiment
+
+    @property
     def phase(self) -> Phase:
         """What goes on right now."""
-        return self.experiment.phase
+        return self.standing.phase
 
     @property
     def busy(self) -> bool:
         """Whether the loop or an evaluation goes on."""
-        return self._task is not None and not self._task.done()
+        return self._course.busy
 
     @property
     def evaluating(self) -> bool:
@@ -103,38 +110,31 @@ class Runner:
         """Whether the robot is a simulated one."""
         return self._acting.simulated
 
-    @property
-    def worker_pids(self) -> dict[str, int]:
-        """Process ids of the living workers, by role."""
-        return self._crew.pids
+    def check(self, verb: Verb) -> None:
+        """Whether the robot could move after this verb, as far as this process knows; to be asked before it is stored.
 
-    @property
-    def stops(self) -> int:
-        """Number of the newest emergency stop."""
-        return self._crew.stops
+        Raises:
+            Conflict: a stop is latched. UnknownName, UnknownTeacher: a plug-in of the experiment isn't installed.
+        """
+        self.standing.must_be_armed(verb)
+        _ = self._acting.task, self.simulated, self._judge
 
     def go(self, *, until: int | None = None) -> None:
-        """Run the loop, after whatever still goes on; pause by itself once `until` feedback is stored."""
-        if self._crew.halted:  # the stop came while the verb that leads here was stored
-            return
+        """Run the loop, after whatever still goes on; pause by itself once `until` feedback is stored.
+
+        Raises:
+            Conflict: a stop came while the verb that leads here was stored; what it stores follows.
+        """
+        self.standing.must_be_armed("resume")
         self._evaluating = False
         self._until = until
-        self._crew.forgive()
+        self.crew.forgive()
         self._follow(self._run)
 
     def evaluate(self, evaluation: Evaluation) -> None:
         """Roll out the deterministic policy in the background."""
         self._evaluating = True
         self._follow(lambda leave: self._evaluate(evaluation, leave))
-
-    async def policy_version(self) -> int:
-        """Gradient steps taken, once those that are owed are taken too; of the newest checkpoint if none learns now."""
-        if self._crew.learner_ready:
-            with contextlib.suppress(WorkerError):
-                await self._crew.flush()
-                return self._crew.policy_version
-        newest = await self._store.latest_checkpoint(self.experiment.id)
-        return newest.policy_version if newest is not None else 0
 
     def dismiss(self) -> None:
         """End the workers once nothing goes on: the experiment is over."""
@@ -143,21 +143,21 @@ class Runner:
 
     def leave(self) -> None:
         """End the loop at its next step; a skill that moves ends first."""
-        self._leave.set()
+        self._course.leave()
         self.desk.wake()
 
     def stop(self) -> None:
         """Emergency stop: the robot first, at once and latched; then the loop."""
-        self._crew.stop()
+        self.crew.stop()
         self.leave()
         self._seen = None
         if self.phase in (Phase.EXECUTING, Phase.EVALUATING):
-            asyncio.get_running_loop().call_later(STOP_GRACE, self._insist, self._task)
+            asyncio.get_running_loop().call_later(STOP_GRACE, self._insist, self._course.task)
 
     async def rearm(self, upto: int) -> None:
         """Lift the stops up to number `upto`; nothing moves by that."""
         with contextlib.suppress(WorkerDied):  # the next one starts re-armed
-            await self._crew.rearm(upto)
+            await self.crew.rearm(upto)
 
     async def reset(self) -> None:
         """Begin a new episode: now if a proposal waits, else as soon as the skill has ended, or at resume."""
@@ -166,38 +166,34 @@ class Runner:
 
     async def idle(self) -> None:
         """Wait until neither the loop nor an evaluation goes on."""
-        while self._task is not None and not self._task.done():
-            await asyncio.wait({self._task})
+        await self._course.idle()
         await self._ledger.settled()
 
     async def close(self, *, grace: float) -> None:
         """End loop and workers; what still goes on after `grace` seconds is cut off, and found interrupted later."""
         self.leave()
-        if self._task is not None and not self._task.done():
-            if self.phase in (Phase.EXECUTING, Phase.EVALUATING):
-                self._crew.stop()
-            _, late = await asyncio.wait({self._task}, timeout=grace)
-            for task in late:
-                task.cancel()
-                with contextlib.suppress(asyncio.CancelledError):
-                    await task
+        if self.busy and self.phase in (Phase.EXECUTING, Phase.EVALUATING):
+            self.crew.stop()
+        await self._course.end(grace)
         await self._ledger.settled()
-        await self._crew.close()
+        await self.crew.close()
+        await self.standing.owed.close()
 
     def changed(self, experiment: Experiment) -> None:
-        """Take over what is stored, unless something newer is known; keep the live phase, and tell everyone."""
-        if experiment.updated_at < self.experiment.updated_at:
-            return
-        self.experiment = experiment.model_copy(update={"phase": self.phase})
+        """Take over what is stored, unless something newer is known, and tell everyone."""
+        self.standing.changed(experiment)
         self.desk.wake()
-        self._publish(ExperimentChanged(experiment=self.experiment))
+
+    @cached_property
+    def _judge(self) -> Judge | None:
+        return Judge(self.experiment, self._acting.task, self.desk) if self.experiment.teacher else None
 
     # --- the loop -----------------------------------------------------------------------------------------------
 
     async def _train(self, leave: asyncio.Event) -> None:
         """Algorithm 1; in brackets the lines of the paper."""
-        self.enter(Phase.STARTING)
-        await self._crew.bring_up()  # [1] the replay is a view of the stored feedback
+        self.standing.enter(Phase.STARTING)
+        await self.crew.bring_up()  # [1] the replay is a view of the stored feedback
         while not leave.is_set() and not await self._enough():
             seen = await self._look()  # [2-4] a new episode where the last one has ended
             await self._propose(seen)  # [5, 6]
@@ -205,8 +201,8 @@ class Runner:
             if judged is not None and judged.verdict is Verdict.GOOD:
                 await self._execute(judged, seen)  # [9-11]
             if self.experiment.lockstep and not leave.is_set():
-                self.enter(Phase.LEARNING)
-                await self._crew.flush()  # [12] otherwise the learner works while nobody asks it anything
+                self.standing.enter(Phase.LEARNING)
+                await self.crew.flush()  # [12] otherwise the learner works while nobody asks it anything
 
     async def _look(self) -> Seen:
         """What the robot sees now: of a new episode, or of the one that goes on."""
@@ -214,22 +210,22 @@ class Runner:
             self._reset_wanted = False
             await self._end_episode("reset")
         if not self._episode_open:
-            self.enter(Phase.OBSERVING)
+            self.standing.enter(Phase.OBSERVING)
             number = (await self._store.experiment(self.experiment.id)).counters.episodes + 1
             seed = episode_seed(self.experiment.seed, number)
             async with self.desk.turn:
                 await self._store.begin_episode(self.experiment.id, seed)
             self._episode_open, self._executed = True, 0
-            self._seen = await self._crew.reset(seed)
+            self._seen = await self.crew.reset(seed)
         elif self._seen is None:
-            self.enter(Phase.OBSERVING)
-            self._seen = await self._crew.observe()
+            self.standing.enter(Phase.OBSERVING)
+            self._seen = await self.crew.observe()
         return self._seen
 
     async def _propose(self, seen: Seen) -> None:
         """Have a proposal open, unless an undo or a click has opened one, or one waits for the gate."""
         if self.desk.open is None and self.desk.judged is None:
-            self.enter(Phase.PROPOSING)
+            self.standing.enter(Phase.PROPOSING)
             await self.desk.present(await self._acting.draw(seen))
 
     async def _query(self, seen: Seen, leave: asyncio.Event) -> Proposal | None:
@@ -239,7 +235,7 @@ class Runner:
             WorkerDied: a worker went away while this waited.
         """
         if self.desk.open is not None:
-            self.enter(Phase.AWAITING_FEEDBACK)
+            self.standing.enter(Phase.AWAITING_FEEDBACK)
             self._ledger.write()
             asked = self.desk.open
             if self._judge is not None and not self._judge.has_judged(asked):
@@ -250,12 +246,12 @@ class Runner:
 
     async def _draw_ahead(self, seen: Seen) -> NewProposal:
         """What would be proposed next if nothing moves: once the learner is done, its policy stands still."""
-        await self._crew.flush()
+        await self.crew.flush()
         return await self._acting.draw(seen)
 
     async def _execute(self, judged: Proposal, seen: Seen) -> None:
         """Run the approved call if the gate opens, and end the episode if that solved or spoiled the task."""
-        self.enter(Phase.DECIDING)
+        self.standing.enter(Phase.DECIDING)
         async with self.desk.turn:
             if self.desk.judged is not judged:  # taken back in the meantime
                 return
@@ -263,12 +259,11 @@ class Runner:
             execution = await self._acting.decide(judged, seen)
         if execution is None:
             return
-        self.enter(Phase.EXECUTING)
-        done = await self._acting.move(judged, execution)
+        self.standing.enter(Phase.EXECUTING)
+        done = await self._acting.move(judged, execution, self._latch_after_damage)
         self._seen = None
         self._executed += 1
-        kinds = [kind for kind, _ in done.violations]
-        response = respond(kinds, simulated=self.simulated, taught=self._judge is not None)
+        response = self._response(done)
         if response in (Response.HALT, Response.PAUSE):
             await self._ask_operator(response, done)
         if response is not Response.NOTHING:
@@ -280,17 +275,8 @@ class Runner:
 
     # --- around the loop ----------------------------------------------------------------------------------------
 
-    def _follow(self, work: Callable[[asyncio.Event], Coroutine[Any, Any, None]]) -> None:
-        """Start `work` once what goes on has ended. Each has a leave event of its own."""
-        previous, self._leave = self._task, asyncio.Event()
-        leave = self._leave
-
-        async def follow() -> None:
-            if previous is not None:
-                await asyncio.wait({previous})
-            await self._guarded(work(leave))
-
-        self._task = asyncio.create_task(follow(), name=f"experiment {self.experiment.id}")
+    def _follow(self, work: Work) -> None:
+        self._course.follow(lambda leave: self._guarded(work(leave)))
 
     async def _run(self, leave: asyncio.Event) -> None:
         """The loop, mended after every death, until it is told to leave."""
@@ -313,45 +299,50 @@ class Runner:
             await work
         except (WorkerError, AdapterError, AgentError, StoreError) as error:
             log.warning("experiment %d failed: %s", self.experiment.id, error)
+            await self.crew.distrust(error)
             await self._fail(f"{error}. {error.remedy}")
         except Exception:
             log.exception("experiment %d failed", self.experiment.id)
             await self._fail("the service met an error of its own. See the server's log, then resume")
         finally:
-            self.enter(Phase.IDLE)
+            self.standing.enter(Phase.IDLE)
 
     async def _mend(self, death: WorkerDied) -> None:
         """Clear up after a death; the next round of the loop starts a new worker."""
-        await self._crew.bury(death)
+        await self.crew.bury(death)
         if death.worker == "robot":
             self._seen = None
             await self.desk.withdraw(CloseReason.INTERRUPTED)
             await self._end_episode("interrupted")
 
     async def _evaluate(self, evaluation: Evaluation, leave: asyncio.Event) -> None:
-        self.enter(Phase.EVALUATING)
+        self.standing.enter(Phase.EVALUATING)
         await self._end_episode("reset")
         try:
-            await roll_out(evaluation, self._acting, self._crew, self._store, leave=leave, publish=self._publish)
+            await roll_out(evaluation, self._acting, self.crew, self._store, leave=leave, publish=self._publish)
         except WorkerDied as death:
-            await self._crew.bury(death)
+            await self.crew.bury(death)
         finally:
             if self.experiment.lifecycle is Lifecycle.FINISHED:
-                await self._crew.close()
+                await self.crew.close()
 
     async def _dismiss(self) -> None:
         await self._end_episode("reset")
-        await self._crew.close()
+        await self.crew.close()
 
     async def _fail(self, why: str) -> None:
         self._seen = None
-        with contextlib.suppress(StoreError):  # a full disk can't even be told of; the log has it
+        with contextlib.suppress(StoreError):  # what fails says so below; the verb that follows closes it in the store
             await self.desk.withdraw(CloseReason.INTERRUPTED)
             await self._end_episode("interrupted")
-            if self._evaluating:
+        self.desk.drop()
+        if self.crew.halted:  # after damage, perhaps, that could not be stored
+            self.standing.owe_halt()
+        if self._evaluating:
+            with contextlib.suppress(StoreError):  # the evaluation itself is closed by the next start
                 await self._store.add_event(self.experiment.id, "evaluation_failed", {"detail": why})
-            else:
-                self.changed(await self._store.transition(self.experiment.id, "fail", failure=why))
+        else:
+            await self.standing.fail(why)
 
     async def _enough(self) -> bool:
         """Whether the wanted amount of feedback is stored; then the experiment pauses itself."""
@@ -370,10 +361,17 @@ class Runner:
             await self._store.end_episode(self.experiment.id, outcome)
         self._seen = None
 
+    def _response(self, done: Done) -> Response:
+        kinds = [kind for kind, _ in done.violations]
+        return respond(kinds, simulated=self.simulated, taught=self._judge is not None)
+
+    def _latch_after_damage(self, done: Done) -> None:
+        """The robot first, then the database."""
+        if self._response(done) is Response.HALT:
+            self.crew.stop()  # `stop` would also kill a robot worker that moves; this one has ended its motion
+
     async def _ask_operator(self, response: Response, done: Done) -> None:
         """Go no further until a person has looked: after damage only once the stop is lifted."""
-        if response is Response.HALT:
-            self._crew.stop()  # `stop` would also kill a robot worker that moves; this one has ended its motion
         self.leave()
         with contextlib.suppress(Conflict):  # paused, or over, by a verb that was quicker
             verb: Literal["halt", "pause"] = "halt" if response is Response.HALT else "pause"
@@ -385,13 +383,7 @@ class Runner:
         """The emergency stop's last word: a robot worker that still moves is killed."""
         if task is not None and not task.done() and self.phase in (Phase.EXECUTING, Phase.EVALUATING):
             log.error("experiment %d: the robot worker did not stop in %g s", self.experiment.id, STOP_GRACE)
-            self._crew.kill_robot()
-
-    def enter(self, phase: Phase) -> None:
-        """Change the live phase and tell everyone."""
-        if self.phase is not phase:
-            self.experiment = self.experiment.model_copy(update={"phase": phase})
-            self._publish(ExperimentChanged(experiment=self.experiment))
+            self.crew.kill_robot()
 
     def _publish(self, event: StreamEvent) -> None:
         self._publisher.publish(self.experiment.id, event)

@@ -16,7 +16,7 @@ from server.hub import Hub
 from server.publisher import Publisher
 from server.schemas import Experiment, ExperimentCreate, Lifecycle, Readiness
 from server.settings import Settings
-from server.store import Store
+from server.store import Receipt, Store
 from server.store_errors import StoreError
 from server.stream import Rooms
 
@@ -41,28 +41,31 @@ class Service:
     rooms: Rooms
     hub: Hub
 
-    async def create(self, body: ExperimentCreate) -> Experiment:
-        """Check a new experiment and store it.
+    async def create(self, body: ExperimentCreate, receipt: Receipt | None = None) -> Experiment:
+        """Check a new experiment and store it, with the answer that a retry gets.
 
         Raises:
             ServiceError: 422, naming the wrong fields.
         """
         resolved = catalogue.check(body)
         lockstep = resolved.lockstep if resolved.lockstep is not None else resolved.teacher is not None
-        return await self.store.create_experiment(resolved, lockstep=lockstep)
+        return await self.store.create_experiment(resolved, lockstep=lockstep, receipt=receipt)
 
     async def readiness(self) -> Readiness:
         """Whether the database answers, and whether every experiment that should run still does."""
         checks = {"store": "ok", "workers": "ok"}
+        troubles: dict[int, str] = {}
         try:
-            page = await self.store.experiments(limit=200)
+            failed = [e for e in (await self.hub.views(limit=200)).items if e.lifecycle is Lifecycle.FAILED]
+            troubles = await self.hub.troubles()
         except StoreError as error:
             checks["store"] = f"{error}; {error.remedy}"
         else:
-            failed = [e for e in page.items if e.lifecycle is Lifecycle.FAILED]
-            if failed:
-                checks["workers"] = "; ".join(f"experiment {e.id}: {e.failure}" for e in failed)
-        return Readiness(ready=checks["store"] == "ok", checks=checks)
+            # one that has failed waits for a person: the service is well
+            told = {e.id: str(e.failure) for e in failed} | troubles
+            if told:
+                checks["workers"] = "; ".join(f"experiment {number}: {why}" for number, why in sorted(told.items()))
+        return Readiness(ready=checks["store"] == "ok" and not troubles, checks=checks)
 
 
 @asynccontextmanager

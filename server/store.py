@@ -25,6 +25,7 @@ from server.store_values import (
     NewProposal,
     NewView,
     Purpose,
+    Receipt,
     StoredLabel,
     StoredResponse,
     Submission,
@@ -40,6 +41,7 @@ __all__ = [
     "NewerDatabase",
     "NotFound",
     "ReadOnly",
+    "Receipt",
     "Store",
     "StoreError",
     "StoredLabel",
@@ -49,6 +51,7 @@ __all__ = [
 ]
 
 T = TypeVar("T")
+M = TypeVar("M", schemas.Experiment, schemas.Evaluation)
 
 
 class Store(Reads):
@@ -74,27 +77,39 @@ class Store(Reads):
 
     # --- experiments ------------------------------------------------------------------------------------------------
 
-    async def create_experiment(self, body: schemas.ExperimentCreate, *, lockstep: bool) -> schemas.Experiment:
-        """Store a checked experiment."""
-        return await self._write(lambda s: wire.experiment(store_experiments.create(s, body, lockstep=lockstep)))
+    async def create_experiment(
+        self, body: schemas.ExperimentCreate, *, lockstep: bool, receipt: Receipt | None = None
+    ) -> schemas.Experiment:
+        """Store a checked experiment, and with it the answer that a retry gets."""
+
+        def create(session: Session) -> schemas.Experiment:
+            made = wire.experiment(store_experiments.create(session, body, lockstep=lockstep))
+            return _receipted(session, made, receipt)
+
+        return await self._write(create)
 
     async def update_experiment(self, experiment_id: int, change: schemas.ExperimentUpdate) -> schemas.Experiment:
         """Change name, mode or time-out; a field left out stays."""
         return await self._write(lambda s: wire.experiment(store_experiments.update(s, experiment_id, change)))
 
-    async def transition(self, experiment_id: int, verb: Verb, failure: str | None = None) -> schemas.Experiment:
-        """Apply a verb of `server.lifecycle`. Leaving `running` closes the open proposal in the same transaction."""
+    async def transition(
+        self, experiment_id: int, verb: Verb, failure: str | None = None, *, settle: bool = False
+    ) -> schemas.Experiment:
+        """Apply a verb of `server.lifecycle`. Leaving `running` closes the open proposal in the same transaction.
+
+        settle: end in it, as interrupted, what never got its end written; only where nothing of it goes on.
+        """
         return await self._write(
-            lambda s: wire.experiment(store_experiments.transition(s, experiment_id, verb, failure))
+            lambda s: wire.experiment(store_experiments.transition(s, experiment_id, verb, failure, unfinished=settle))
         )
 
     async def halt(self, experiment_id: int) -> schemas.Experiment:
         """Latch the emergency stop. Never refused; again, it changes nothing."""
         return await self.transition(experiment_id, "halt")
 
-    async def rearm(self, experiment_id: int) -> schemas.Experiment:
-        """Unlatch the emergency stop."""
-        return await self.transition(experiment_id, "rearm")
+    async def rearm(self, experiment_id: int, *, latched: bool = False) -> schemas.Experiment:
+        """Unlatch the emergency stop. `latched`: there is one, even if it could not be stored."""
+        return await self._write(lambda s: wire.experiment(store_experiments.rearm(s, experiment_id, latched=latched)))
 
     async def recover(self) -> list[int]:
         """Settle what an ended process left behind; the ids of the experiments that it concerned."""
@@ -190,12 +205,21 @@ class Store(Reads):
         return await self._write(lambda s: wire.metric(store_records.add_metrics(s, experiment_id, feedback, values)))
 
     async def create_evaluation(
-        self, experiment_id: int, *, rollouts: int, seed: int, policy_version: int = 0
+        self,
+        experiment_id: int,
+        *,
+        rollouts: int,
+        seed: int,
+        policy_version: int = 0,
+        receipt: Receipt | None = None,
     ) -> schemas.Evaluation:
-        """An evaluation that has begun; its proposals bring the policy version along."""
-        return await self._write(
-            lambda s: wire.evaluation(store_records.create_evaluation(s, experiment_id, rollouts, seed, policy_version))
-        )
+        """An evaluation that has begun, and the answer that a retry gets. Its proposals bring the policy version."""
+
+        def create(session: Session) -> schemas.Evaluation:
+            row = store_records.create_evaluation(session, experiment_id, rollouts, seed, policy_version)
+            return _receipted(session, wire.evaluation(row), receipt)
+
+        return await self._write(create)
 
     async def update_evaluation(
         self, evaluation_id: int, *, done: int, successes: int, low_level_steps: int, ended: bool = False
@@ -240,6 +264,15 @@ class Store(Reads):
 
     async def _write(self, run: Callable[[Session], T]) -> T:
         return await self._database.write(run)
+
+
+def _receipted(session: Session, made: M, receipt: Receipt | None) -> M:
+    if receipt is not None:
+        body = made.model_dump(mode="json")
+        store_records.remember(
+            session, receipt.key, receipt.route, receipt.body_digest, status=receipt.status, body=body
+        )
+    return made
 
 
 def _make_directory(path: Path) -> None:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from datetime import UTC, datetime
-from typing import Any
+from typing import Any, TypeVar
 
 from sqlalchemy import func, select
 from sqlalchemy.orm import Session
@@ -21,6 +22,9 @@ LEAVING: dict[str, schemas.CloseReason] = {
     "halt": schemas.CloseReason.WITHDRAWN,
 }
 """Verbs after which an open proposal can't be answered any more: it is closed in the same transaction."""
+
+
+R = TypeVar("R", ExecutionRow, ProposalRow, EvaluationRow)
 
 
 def now() -> datetime:
@@ -78,8 +82,15 @@ def update(session: Session, experiment_id: int, change: schemas.ExperimentUpdat
     return row
 
 
-def transition(session: Session, experiment_id: int, verb: lifecycle.Verb, failure: str | None = None) -> ExperimentRow:
-    """Apply a verb of the lifecycle.
+def transition(
+    session: Session,
+    experiment_id: int,
+    verb: lifecycle.Verb,
+    failure: str | None = None,
+    *,
+    unfinished: bool = False,
+) -> ExperimentRow:
+    """Apply a verb of the lifecycle. `unfinished`: end what never got its end written, because none of it goes on.
 
     Raises:
         Conflict: it is illegal now; a second `halt` isn't, it changes nothing.
@@ -94,6 +105,8 @@ def transition(session: Session, experiment_id: int, verb: lifecycle.Verb, failu
         row.failure = failure or "unknown"
     elif verb in ("start", "resume"):
         row.failure = None
+    if unfinished:
+        settle(session, experiment_id)
     if verb in LEAVING:
         close_open(session, experiment_id, LEAVING[verb])
     payload = {"from": before.lifecycle.value, "to": after.lifecycle.value}
@@ -101,6 +114,13 @@ def transition(session: Session, experiment_id: int, verb: lifecycle.Verb, failu
         payload["failure"] = str(row.failure)
     journal(session, experiment_id, verb, **payload)
     return row
+
+
+def rearm(session: Session, experiment_id: int, *, latched: bool) -> ExperimentRow:
+    """Lift the emergency stop. `latched`: there is one, even if it never got here."""
+    if latched:
+        transition(session, experiment_id, "halt")
+    return transition(session, experiment_id, "rearm")
 
 
 def close_open(session: Session, experiment_id: int, reason: schemas.CloseReason) -> None:
@@ -149,23 +169,36 @@ def end_episode(session: Session, experiment_id: int, outcome: EpisodeOutcome) -
     journal(session, experiment_id, "episode_ended", episode=episode.number, outcome=outcome)
 
 
-def recover(session: Session) -> list[int]:
-    """Settle what a process left behind that ended without warning. Nothing is rerun (DESIGN.md section 5, 3)."""
+def settle(session: Session, experiment_id: int | None = None) -> set[int]:
+    """End what nobody will end any more, of one experiment or of all. Nothing is rerun (DESIGN.md section 5, 3)."""
     touched: set[int] = set()
-    for execution in session.scalars(select(ExecutionRow).where(ExecutionRow.ended_at.is_(None))):
+
+    def unended(row: type[R], ended_at: Any) -> Sequence[R]:
+        query = select(row).where(ended_at.is_(None))
+        if experiment_id is not None:
+            query = query.where(row.experiment_id == experiment_id)
+        rows = session.scalars(query).all()
+        touched.update(r.experiment_id for r in rows)
+        return rows
+
+    for execution in unended(ExecutionRow, ExecutionRow.ended_at):
         execution.outcome, execution.end_reason, execution.ended_at = "interrupted", "interrupted", now()
-        touched.add(execution.experiment_id)
         journal(session, execution.experiment_id, "execution_ended", execution=execution.id, outcome="interrupted")
-    for proposal in session.scalars(select(ProposalRow).where(ProposalRow.closed_at.is_(None))):
+    for proposal in unended(ProposalRow, ProposalRow.closed_at):
         proposal.close_reason, proposal.closed_at = "interrupted", now()
-        touched.add(proposal.experiment_id)
+    for evaluation in unended(EvaluationRow, EvaluationRow.ended_at):
+        # what is done is a result; the rest never happened
+        evaluation.rollouts, evaluation.ended_at = evaluation.done, now()
+    session.flush()
+    return touched
+
+
+def recover(session: Session) -> list[int]:
+    """Settle what a process left behind that ended without warning."""
+    touched = settle(session)
     for episode in session.scalars(select(EpisodeRow).where(EpisodeRow.ended_at.is_(None))):
         episode.outcome, episode.ended_at = "interrupted", now()
         touched.add(episode.experiment_id)
-    for evaluation in session.scalars(select(EvaluationRow).where(EvaluationRow.ended_at.is_(None))):
-        # what is done is a result; the rest never happened
-        evaluation.rollouts, evaluation.ended_at = evaluation.done, now()
-        touched.add(evaluation.experiment_id)
     for row in session.scalars(select(ExperimentRow).where(ExperimentRow.lifecycle == "running")):
         row.lifecycle = "paused"
         touched.add(row.id)

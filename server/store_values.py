@@ -76,6 +76,16 @@ class StoredLabel:
 
 
 @dataclass(frozen=True)
+class Receipt:
+    """Under which key, for which request, the answer to a write is kept together with what it writes."""
+
+    key: str
+    route: str
+    body_digest: str
+    status: int
+
+
+@dataclass(frozen=True)
 class StoredResponse:
     """The answer that a write was given the first time; `body` is JSON."""
 

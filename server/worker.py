@@ -14,7 +14,7 @@ import os
 import socket
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from typing import Any
 
 from server.workers.channel import LENGTH, STOP
@@ -23,6 +23,8 @@ log = logging.getLogger(__name__)
 
 OnFrame = Callable[[bytes, bytes], None]
 """Takes the JSON header and the JPEG of a frame."""
+HELD_BACK = frozenset({"flush"})
+"""Commands that a worker answers later than ones that were sent after them: nothing waits behind these."""
 
 
 class WorkerError(Exception):
@@ -50,8 +52,9 @@ class WorkerTimeout(WorkerDied):
 class CommandFailed(WorkerError):
     """The worker is well and refuses a command. `kind` is the name of the error on the other side."""
 
-    def __init__(self, kind: str, message: str, *, remedy: str) -> None:
+    def __init__(self, worker: str, kind: str, message: str, *, remedy: str) -> None:
         super().__init__(message, remedy=remedy)
+        self.worker = worker
         self.kind = kind
 
 
@@ -65,6 +68,7 @@ class Worker:
         self._stop = stop
         self._sent = 0
         self._waiting: dict[int, asyncio.Future[dict[str, Any]]] = {}
+        self._held_back: set[int] = set()
         self._gone = asyncio.Event()
         self._death = ""
         self._writer: asyncio.StreamWriter
@@ -120,21 +124,36 @@ class Worker:
             return future
         self._sent += 1
         self._waiting[self._sent] = future
+        if command in HELD_BACK:
+            self._held_back.add(self._sent)
         message = json.dumps({"id": self._sent, "command": command, "arguments": arguments}).encode()
         self._writer.write(LENGTH.pack(len(message)) + message)
         return future
 
-    async def call(self, command: str, *, deadline: float, **arguments: Any) -> dict[str, Any]:
-        """Send a command and wait for its reply, at most `deadline` seconds.
+    def call(self, command: str, *, deadline: float, **arguments: Any) -> Coroutine[Any, Any, dict[str, Any]]:
+        """Send a command now; what is returned waits for its reply, at most `deadline` seconds once it is its turn.
 
-        Raises:
+        Raises, when it is awaited:
             CommandFailed: the worker refuses; it is well.
             WorkerDied: the process is gone.
             WorkerTimeout: no reply in time; the process has been killed.
         """
+        before = [reply for number, reply in self._waiting.items() if number not in self._held_back]
+        return self._in_time(command, self.send(command, **arguments), before, deadline)
+
+    async def _in_time(
+        self,
+        command: str,
+        reply: asyncio.Future[dict[str, Any]],
+        before: list[asyncio.Future[dict[str, Any]]],
+        deadline: float,
+    ) -> dict[str, Any]:
+        """The reply. The clock starts when those before are answered: a long motion is no sign of a hung worker."""
+        if before:
+            await asyncio.wait(before)
         try:
             async with asyncio.timeout(deadline):
-                return await self.send(command, **arguments)
+                return await reply
         except TimeoutError:
             self.kill()
             raise WorkerTimeout(
@@ -202,10 +221,11 @@ class Worker:
 
     def _settle(self, reply: dict[str, Any]) -> None:
         future = self._waiting.pop(reply["id"])
+        self._held_back.discard(reply["id"])
         if future.done():  # its caller was cancelled
             return
         if error := reply.get("error"):
-            future.set_exception(CommandFailed(error["kind"], error["message"], remedy=error["remedy"]))
+            future.set_exception(CommandFailed(self.name, error["kind"], error["message"], remedy=error["remedy"]))
         else:
             future.set_result(reply["result"])
 

@@ -52,7 +52,7 @@ async def create_experiment(
     idempotency_key: IdempotencyKey = None,
 ) -> Response:
     """Create an experiment. It stays `created` until it is started."""
-    response = await once(service.store, request, idempotency_key, 201, lambda: service.create(body))
+    response = await once(service.store, request, idempotency_key, 201, lambda receipt: service.create(body, receipt))
     return response
 
 
@@ -137,4 +137,6 @@ async def evaluate_experiment(
     idempotency_key: IdempotencyKey = None,
 ) -> Response:
     """Run the deterministic policy; it goes on in the background (see the evaluations, or the stream)."""
-    return await once(service.store, request, idempotency_key, 202, lambda: service.hub.evaluate(experiment_id, body))
+    return await once(
+        service.store, request, idempotency_key, 202, lambda receipt: service.hub.evaluate(experiment_id, body, receipt)
+    )

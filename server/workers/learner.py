@@ -30,6 +30,17 @@ NEAR = 0.05
 """m in the xy plane: what counts as near a task-relevant key point (the paper gives no number; two block widths)."""
 
 
+class Diverged(Refusal):
+    """Training isn't sound any more: nothing that this process learned is used from here on."""
+
+    def __init__(self, cause: AgentError) -> None:
+        remedy = (
+            "Resume: it learns anew from the last checkpoint; if it fails again, create a new experiment"
+            " with a lower learning_rate"
+        )
+        super().__init__(str(cause), remedy=remedy)
+
+
 class Learner:
     """The commands, one method each."""
 
@@ -37,7 +48,7 @@ class Learner:
         self._algorithm: Algorithm | None = None
         self._task: Task
         self._metrics: dict[str, float] = {}
-        self._fault: AgentError | None = None
+        self._fault: Diverged | None = None
         self._lockstep = False
         self._starved = False
         """The last update had nothing to learn from: no more before something new comes."""
@@ -125,7 +136,7 @@ class Learner:
         try:
             metrics = self.algorithm.update()
         except AgentError as error:
-            self._fault = error
+            self._fault = Diverged(error)
         else:
             self._starved = metrics is None
             self._metrics = {k: float(v) for k, v in (metrics or {}).items()}

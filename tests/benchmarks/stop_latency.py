@@ -17,7 +17,8 @@ import numpy as np
 import uvicorn
 
 from server.app import create_app
-from server.crew import Crew, Done
+from server.crew import Crew
+from server.crew_values import Done
 from server.schemas import ExperimentCreate
 from server.service import Service, opened
 from server.settings import Settings

@@ -1,0 +1,106 @@
+"""Where one experiment stands: what is stored, what goes on right now, and what is true but not stored yet."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable
+
+from server import lifecycle
+from server.owed import Owed
+from server.schemas import Experiment, ExperimentChanged, Lifecycle, Phase, StreamEvent
+from server.store import Conflict, Store, StoreError
+
+
+class Standing:
+    """The experiment as everyone is told of it. A stop and a failure count from when they happen, stored or not."""
+
+    def __init__(
+        self,
+        experiment: Experiment,
+        store: Store,
+        *,
+        publish: Callable[[StreamEvent], None],
+        halted: Callable[[], bool],
+    ) -> None:
+        self._stored = experiment
+        self._store = store
+        self._publish = publish
+        self._halted = halted
+        self._failure: str | None = None
+        self.phase = experiment.phase
+        """What goes on right now."""
+        self.owed = Owed(experiment.id)
+
+    @property
+    def experiment(self) -> Experiment:
+        """As it is now."""
+        return self.live(self._stored)
+
+    def live(self, stored: Experiment) -> Experiment:
+        """A stored state, with what the store doesn't know."""
+        now: dict[str, object] = {"phase": self.phase}
+        ran = stored.lifecycle is Lifecycle.RUNNING
+        if self._halted():
+            now |= {"halted": True} | ({"lifecycle": Lifecycle.PAUSED} if ran else {})
+        if self._failure is not None and ran:
+            now |= {"lifecycle": Lifecycle.FAILED, "failure": self._failure}
+        return stored.model_copy(update=now)
+
+    def changed(self, stored: Experiment) -> None:
+        """Take over what is stored, unless something newer is known, and tell everyone."""
+        if stored.updated_at >= self._stored.updated_at:
+            self._stored = stored
+            self.tell()
+
+    def tell(self) -> None:
+        """Tell everyone how it stands."""
+        self._publish(ExperimentChanged(experiment=self.experiment))
+
+    def enter(self, phase: Phase) -> None:
+        """Change the live phase and tell everyone."""
+        if self.phase is not phase:
+            self.phase = phase
+            self.tell()
+
+    def must_be_armed(self, verb: lifecycle.Verb) -> None:
+        """Nothing that moves is begun while a stop is latched here, whatever the database says.
+
+        Raises:
+            Conflict: one is.
+        """
+        if self._halted():
+            state = lifecycle.State(self.experiment.lifecycle, halted=True)
+            raise Conflict(
+                f"can't {verb} while the emergency stop is latched",
+                remedy="look at the robot, then re-arm",
+                current=state.lifecycle.value,
+                allowed=lifecycle.allowed(state),
+            )
+
+    def owe_halt(self) -> None:
+        """The robot is stopped and stays so; only the database doesn't know it yet."""
+        if not self._stored.halted:
+            self.owed.add("the emergency stop", self._store_halt)
+            self.tell()
+
+    async def fail(self, why: str) -> None:
+        """It has failed, unless a verb that ended its run was quicker: told at once, stored when it can be."""
+        try:
+            with contextlib.suppress(Conflict):
+                self.changed(await self._store.transition(self._stored.id, "fail", failure=why))
+        except StoreError:
+            if self.experiment.lifecycle is Lifecycle.RUNNING:
+                self._failure = why
+                self.owed.add("the failure", self._store_failure)
+                self.tell()
+
+    async def _store_halt(self) -> None:
+        if self._halted():  # else it was re-armed, and that is stored
+            self.changed(await self._store.halt(self._stored.id))
+
+    async def _store_failure(self) -> None:
+        with contextlib.suppress(Conflict):  # a verb was quicker
+            stored = await self._store.transition(self._stored.id, "fail", failure=self._failure)
+            self._failure = None
+            self.changed(stored)
+        self._failure = None
