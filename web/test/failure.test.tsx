@@ -9,7 +9,7 @@ import type { Verb } from "../src/wire";
 import { experiment, snapshot } from "./messages";
 import { byTestId, show } from "./render";
 
-const WHY = "the robot's process died 4 times within a minute. Look at the server's log, then resume";
+const WHY = "the robot's process died 4 times within a minute. look at the server's log, then resume";
 
 it("shows failure, remedy and the way on", async () => {
   const asked: Verb[] = [];
@@ -17,7 +17,9 @@ it("shows failure, remedy and the way on", async () => {
   const failed = experiment({ lifecycle: "failed", phase: "idle", failure: WHY });
   await show(<TrainerTitle experiment={failed} session={session} onAsk={() => undefined} />);
   expect(byTestId("failed").getAttribute("role")).toBe("alert");
-  expect(byTestId("failed").textContent).toContain(WHY);
+  expect(byTestId("failed").textContent).toContain(
+    "The robot's process died 4 times within a minute. Look at the server's log, then resume.",
+  );
   const buttons = [...document.querySelectorAll<HTMLElement>("button")];
   // The service allows no other verb of the page's here.
   expect(buttons.map((button) => button.dataset.testid)).toEqual(["resume"]);

@@ -23,6 +23,12 @@ export function finishQuestion(name: string, act: () => void): Question {
   };
 }
 
+/** The service's words, which come in lower case and without a full stop. */
+function sentences(words: string): string {
+  const text = words.replace(/(^|[.!?] )(\p{Ll})/gu, (start) => start.toUpperCase());
+  return /[.!?]$/.test(text) ? text : `${text}.`;
+}
+
 export function TrainerTitle({ experiment, session, onAsk }: TrainerTitleProps) {
   const [busy, setBusy] = useState(false);
   if (!experiment)
@@ -58,7 +64,8 @@ export function TrainerTitle({ experiment, session, onAsk }: TrainerTitleProps) 
       {failed && (
         <div className="banner" role="alert" data-testid="failed">
           <div>
-            <b>This experiment failed.</b> {experiment.failure ?? "The service gave no reason; its log may."}
+            <b>This experiment failed.</b>{" "}
+            {sentences(experiment.failure ?? "see the server’s log, then resume")}
           </div>
           {verbs}
         </div>
