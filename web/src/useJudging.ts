@@ -31,8 +31,7 @@ function whyNot(state: TrainerState, ready: boolean): string | null {
   if (ready) return "Too fast, not counted: look at this one first.";
   if (experiment?.lifecycle !== "running" || experiment.halted || experiment.teacher) return null;
   if (state.execution) return "Not counted: nothing to judge while the robot moves.";
-  if (proposal && chosenFor(state, proposal.id) !== null)
-    return "Not counted: you have judged this one already.";
+  if (proposal && chosenFor(state, proposal.id) !== null) return "Not counted: that one was judged already.";
   return "Not counted: the next proposal isn’t here yet.";
 }
 

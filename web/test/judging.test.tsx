@@ -138,7 +138,7 @@ describe("judging what was looked at", () => {
 
   it.each([
     [
-      "you have judged this one already",
+      "that one was judged already",
       having(snapshot({ proposal: proposal(1) }), {
         type: "acknowledged",
         request_id: "click-1",
