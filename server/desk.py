@@ -29,7 +29,7 @@ from server.schemas import (
     ProposalOpened,
     Verdict,
 )
-from server.store import Conflict, Store
+from server.store import Store, StoreError
 from server.store_values import NewProposal, StoredLabel, Submission
 from server.worker import WorkerDied
 
@@ -212,7 +212,7 @@ class Desk:
         return drawn if self.open is not None and drawn.observation_id == self.open.observation_id else None
 
     async def _try_open(self, drawn: NewProposal) -> Proposal | None:
-        with contextlib.suppress(Conflict):  # the click was late or changed nothing: the loop proposes as ever
+        with contextlib.suppress(StoreError):  # the click was late, or the disk is full: the loop proposes as ever
             return await self._store.open_proposal(drawn)
         return None
 

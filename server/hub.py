@@ -104,18 +104,13 @@ class Hub:
         for experiment_id, runner in self._runners.items():
             if runner.standing.owed:
                 found[experiment_id] = "what has happened could not be stored yet; free space where the database lies"
-        cursor = None
-        while True:
-            page = await self.views(cursor, 200)
-            for item in page.items:
-                runner_of = self._runners.get(item.id)
-                alive = runner_of is not None and runner_of.busy
-                # a verb that is just being carried out starts or ends the loop
-                if item.lifecycle is Lifecycle.RUNNING and not alive and not self._verbs[item.id].locked():
-                    found.setdefault(item.id, "it should run and doesn't; pause and resume it")
-            cursor = page.next_cursor
-            if cursor is None:
-                return found
+        for experiment_id in await self.store.running():
+            runner_of = self._runners.get(experiment_id)
+            alive = runner_of is not None and runner_of.busy
+            # a verb that is just being carried out starts or ends the loop
+            if not alive and not self._verbs[experiment_id].locked():
+                found.setdefault(experiment_id, "it should run and doesn't; pause and resume it")
+        return found
 
     # --- verbs --------------------------------------------------------------------------------------------------
 

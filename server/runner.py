@@ -280,6 +280,7 @@ class Runner:
 
     async def _run(self, leave: asyncio.Event) -> None:
         """The loop, mended after every death, until it is told to leave."""
+        self.desk.drop_judged()  # by a click that came while the last loop failed
         while not leave.is_set() and not await self._enough():
             try:
                 await self._train(leave)

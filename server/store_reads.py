@@ -34,6 +34,12 @@ class Reads:
         items, after = await self._page(query, models.ExperimentRow.id, wire.experiment, cursor, limit)
         return schemas.ExperimentPage(items=items, next_cursor=after)
 
+    async def running(self) -> list[int]:
+        """Ids of the experiments that run."""
+        row = models.ExperimentRow
+        query = select(row.id).where(row.lifecycle == schemas.Lifecycle.RUNNING.value).order_by(row.id)
+        return await self._database.read(lambda session: list(session.scalars(query)))
+
     async def proposal(self, proposal_id: int) -> schemas.Proposal:
         """One proposal."""
         return await self._one(models.ProposalRow, proposal_id, "proposal", wire.proposal)

@@ -5,6 +5,9 @@ from __future__ import annotations
 import asyncio
 from pathlib import Path
 
+import pytest
+
+from server.store_errors import StoreError
 from tests.server.serving import EXPERIMENT, event, serving
 from tests.server.test_errors import check_problem
 
@@ -92,6 +95,25 @@ async def test_the_same_idempotency_key_creates_once(tmp_path: Path) -> None:
         wrong = {"Idempotency-Key": "creation-0002"}
         check_problem(await live.http.post("/api/v1/experiments", json=EXPERIMENT | {"task": "x"}, headers=wrong), 422)
         assert (await live.http.post("/api/v1/experiments", json=EXPERIMENT, headers=wrong)).status_code == 201
+
+
+async def test_an_experiment_and_the_answer_to_its_retry_are_stored_together(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async with serving(tmp_path) as live:
+        headers = {"Idempotency-Key": "creation-0003"}
+
+        def broken(*_: object, **__: object) -> None:
+            raise StoreError("the database failed", remedy="try again")
+
+        with monkeypatch.context() as crash:
+            crash.setattr("server.store_records.remember", broken)
+            check_problem(await live.http.post("/api/v1/experiments", json=EXPERIMENT, headers=headers), 503)
+        assert (await live.http.get("/api/v1/experiments")).json()["items"] == []
+        made = await live.http.post("/api/v1/experiments", json=EXPERIMENT, headers=headers)
+        again = await live.http.post("/api/v1/experiments", json=EXPERIMENT, headers=headers)
+        assert again.json() == made.json()
+        assert len((await live.http.get("/api/v1/experiments")).json()["items"]) == 1
 
 
 async def test_the_first_experiment_is_made_once_where_there_is_none(tmp_path: Path) -> None:
