@@ -4,11 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from pydantic import BaseModel
-from seed_scripted import Scripted, ScriptedSettings
 
 from agent.algorithm import AgentError, Label, Problem
+
+if TYPE_CHECKING:
+    from tests.plugins.seed_scripted import Scripted, ScriptedSettings
+else:  # a plug-in is found by its directory, and knows nothing of the project's tests
+    from seed_scripted import Scripted, ScriptedSettings
 
 
 class DivergingSettings(BaseModel, extra="forbid"):

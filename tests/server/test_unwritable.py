@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from robot_adapters import registry
 from server.schemas import (
     ExecutionEnded,
     ExecutionOutcome,
@@ -194,28 +196,37 @@ async def test_an_outcome_that_cannot_be_stored_blocks_nothing(tmp_path: Path, m
         await s.seen.next(ExecutionEnded, at, where=lambda e: e.execution.proposal_id == following.id)
 
 
+@pytest.fixture
+def plugins() -> Iterator[None]:
+    """The plug-ins for tests, here and in the workers; found anew, because this process has looked before."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(str(PLUGINS))
+        patch.setenv("PYTHONPATH", str(PLUGINS))
+        registry._load_all.cache_clear()
+        yield
+    registry._load_all.cache_clear()
+
+
+@pytest.mark.usefixtures("plugins")
 async def test_damage_that_cannot_be_stored_latches_the_stop_all_the_same(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    with monkeypatch.context() as plugins:
-        plugins.syspath_prepend(str(PLUGINS))
-        plugins.setenv("PYTHONPATH", str(PLUGINS))
-        async with stage(tmp_path) as s:
-            disk = Disk(s.store, monkeypatch)
-            experiment = await s.experiment(adapter="clumsy")
-            await s.hub.act(experiment.id, "start")
-            proposal = await s.proposal()
-            disk.fill("end_execution", "transition", "halt", "close_proposal", "end_episode")
-            at = s.now
-            await s.judge(proposal, 1)
-            await s.seen.next(ExperimentChanged, at, where=lambda e: e.experiment.halted)
-            await s.hub.idle(experiment.id)
-            disk.free()
-            with pytest.raises(Conflict, match="latched"):
-                await s.hub.act(experiment.id, "resume")
-            # what could not be stored was, before anything else
-            stored = await s.store.experiment(experiment.id)
-            assert (stored.halted, stored.lifecycle, stored.counters.violations) == (True, Lifecycle.PAUSED, 1)
+    async with stage(tmp_path) as s:
+        disk = Disk(s.store, monkeypatch)
+        experiment = await s.experiment(adapter="clumsy")
+        await s.hub.act(experiment.id, "start")
+        proposal = await s.proposal()
+        disk.fill("end_execution", "transition", "halt", "close_proposal", "end_episode")
+        at = s.now
+        await s.judge(proposal, 1)
+        await s.seen.next(ExperimentChanged, at, where=lambda e: e.experiment.halted)
+        await s.hub.idle(experiment.id)
+        disk.free()
+        with pytest.raises(Conflict, match="latched"):
+            await s.hub.act(experiment.id, "resume")
+        # what could not be stored was, before anything else
+        stored = await s.store.experiment(experiment.id)
+        assert (stored.halted, stored.lifecycle, stored.counters.violations) == (True, Lifecycle.PAUSED, 1)
 
 
 async def test_what_never_got_its_end_written_is_settled_by_the_next_run(
