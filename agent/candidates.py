@@ -15,19 +15,27 @@ from torch import Tensor
 from agent.grounding import Grounding
 from agent.networks import Networks
 from agent.proposing import Choice
-from agent.replay import Float32, Replay
+from agent.replay import Batch, Float32, Replay
 
 SAME_SITUATION = 0.02
 """States that differ by no more than this in any entry, scaled to [-1, 1], are the same situation."""
-SPREADS = (0.1, 0.3, 0.6)
-"""Standard deviations of the spots around an option's middle, shares of its range."""
+SPREADS = (0.0, 0.1, 0.3, 0.6)
+"""Standard deviations of the spots around an option's middle, drawn for each parameter, shares of its range."""
+JITTER = 0.1
+"""Standard deviation of the spots around what was good before, likewise."""
 REFUSED = 2.0
 """What a refused call takes off its own score: the whole range of labels."""
-LOCAL_REACH = 0.25
+LOCAL_REACH = 0.125
 """How far a refusal reaches around a key point, as a share of the grounding radius."""
-OTHER_REACH = 0.25
-"""How far it reaches in a parameter that is no position, scaled to [-1, 1]."""
-
+LOCALITY = 1.5
+"""What a candidate loses at the grounding radius: of calls that promise alike, the one nearer the key point is made."""
+FATIGUE = (0.1, 0.5)
+"""What each refusal in this situation takes off all candidates of its option, so that others get their turn: of one
+that never was called good, and of one whose good calls were elsewhere, which is probably not due here."""
+MOST_TIRED = 1.0
+"""Less than `REFUSED`: a call without parameters, once refused, doesn't come back because there is much to search."""
+OTHER_REACH = 0.12
+"""How far a refusal reaches in a parameter that is no position, scaled to [-1, 1]."""
 FAR = 2.0
 """Pushes along x and along y are twice this many reaches apart."""
 
@@ -43,92 +51,76 @@ class Search:
     recall: int
 
 
-@torch.inference_mode()
-def choose_ranked(
-    networks: Networks,
-    grounding: Grounding,
-    replay: Replay,
-    search: Search,
-    state: Float32,
-    keypoints: Float32,
-    generator: torch.Generator,
-    *,
-    deterministic: bool,
-) -> Choice:
-    """The best candidate, or one drawn in proportion to exp(score / temperature).
+class Chooser:
+    """Draws candidates and chooses among them. Holds what it reads, changes none of it."""
 
-    state: (n,) scaled. keypoints: (K, M, 3) m. Deterministic candidates are the actors' middles and what was good
-    before, their scores the critic's alone; nothing is drawn.
-    """
-    states = torch.from_numpy(state).unsqueeze(0)
-    here = torch.from_numpy(keypoints).unsqueeze(0)
-    mean, log_std = (part[:, 0] for part in networks.parameter_distributions(states))
-    options, local = _remembered(grounding, replay, search.recall)
-    promising = torch.zeros(grounding.options, dtype=torch.bool)
-    promising[options] = True
-    options, local = options[-search.recall :], local[-search.recall :]
-    every = torch.arange(grounding.options)
-    parts = [(every, torch.tanh(mean)), (options, local)]
-    if not deterministic:
-        parts += _drawn(mean, log_std, search, grounding, promising, generator)
-        jitter = 0.1 * torch.randn(local.shape, generator=generator)
-        parts.append((options, local + jitter))
-    options = torch.cat([o for o, _ in parts])
-    local = torch.cat([x for _, x in parts]) * networks.mask[options, 0]
-    parameters = _decoded(grounding, options, local, here).clamp(-1.0, 1.0) * networks.mask[options, 0]
-    skills = grounding.option_skill[options]
-    size = len(options)
-    predicted = networks.predict(
-        states.expand(size, -1), skills, parameters, here.expand(size, *here.shape[1:])
-    )
-    score = predicted.amin(dim=0)
-    if deterministic:
-        weights = torch.zeros(size)
-        at = int(score.argmax())
-        weights[at] = 1.0
-    else:
-        score = score + search.optimism * ~promising[options] - _refused(grounding, replay, search, state, skills, parameters)
-        # an option counts once, however many candidates it has
-        weights = torch.softmax(score / search.temperature, dim=0)
-        at = int(torch.multinomial(weights, 1, generator=generator))
-    probabilities = torch.zeros(networks.layout.skills).index_add_(0, skills, weights)
-    return Choice(
-        skill=int(skills[at]),
-        parameters=parameters[at].double().numpy(),
-        probabilities=(probabilities / probabilities.sum()).double().numpy(),
-        predicted=float(predicted[:, at].mean()),
-    )
+    def __init__(self, networks: Networks, grounding: Grounding, replay: Replay, search: Search) -> None:
+        self._networks, self._grounding, self._replay, self._search = networks, grounding, replay, search
 
+    @torch.inference_mode()
+    def choose(self, state: Float32, keypoints: Float32, generator: torch.Generator, *, deterministic: bool) -> Choice:
+        """The best candidate, or one drawn in proportion to exp(score / temperature).
 
-def _drawn(
-    mean: Tensor,
-    log_std: Tensor,
-    search: Search,
-    grounding: Grounding,
-    promising: Tensor,
-    generator: torch.Generator,
-) -> list[tuple[Tensor, Tensor]]:
-    """Draws of the actors, spots around their middles, and for what never was good, spots everywhere."""
-    O, P = mean.shape
-    count = max(1, search.candidates // 2)
-    every = torch.arange(O).repeat_interleave(count)
-    noise = torch.randn((O, count, P), generator=generator)
-    drawn = torch.tanh(mean[:, None] + log_std.exp()[:, None] * noise)
-    spread = torch.tensor(SPREADS)[torch.randint(len(SPREADS), (O, count, 1), generator=generator)]
-    around = torch.tanh(mean)[:, None] + spread * torch.randn((O, count, P), generator=generator)
-    anywhere = _inner(grounding, search.spacing)[:, None] * (2 * torch.rand((O, count, P), generator=generator) - 1)
-    free = (grounding.option_keypoint < 0)[:, None, None]
-    placed = torch.where(free, anywhere[..., :3], around[..., :3])
-    looked = torch.cat([placed, anywhere[..., 3:]], dim=-1)
-    around = torch.where(promising[:, None, None], around, looked).clamp(-1.0, 1.0)
-    parts = [(every, drawn.flatten(0, 1)), (every, around.flatten(0, 1))]
-    lost = torch.arange(O)[~promising].repeat_interleave(count)
-    if len(lost):
+        state: (n,) scaled. keypoints: (K, M, 3) m. Deterministic candidates are the actors' middles and what was good
+        before; nothing is drawn.
+        """
+        networks, grounding, search = self._networks, self._grounding, self._search
+        states, here = (torch.from_numpy(array).unsqueeze(0) for array in (state, keypoints))
+        mean, log_std = (part[:, 0] for part in networks.parameter_distributions(states))
+        options, local = _remembered(grounding, self._replay)
+        promising = torch.zeros(grounding.options, dtype=torch.bool)
+        promising[options] = True
+        recalled = max(0, len(options) - search.recall)
+        options, local = options[recalled:], local[recalled:]
+        parts = [(torch.arange(grounding.options), torch.tanh(mean)), (options, local)]
+        if not deterministic:
+            parts += self._drawn((mean, log_std), promising, generator)
+            parts.append((options, local + JITTER * torch.randn(local.shape, generator=generator)))
+        options = torch.cat([o for o, _ in parts])
+        local = torch.cat([x for _, x in parts]) * networks.mask[options, 0]
+        parameters = _decoded(grounding, options, local, here).clamp(-1.0, 1.0) * networks.mask[options, 0]
+        skills, size = grounding.option_skill[options], len(options)
+        predicted = networks.predict(states.expand(size, -1), skills, parameters, here.expand(size, *here.shape[1:]))
+        score = predicted.amin(dim=0).clamp(min=-1.0) - _away(grounding, options, local)
+        if deterministic:
+            at = int(score.argmax())
+            weights = torch.zeros(size)
+            weights[at] = 1.0
+        else:
+            refused = self._replay.refused(state, SAME_SITUATION)
+            score = score + search.optimism * ~promising[options]
+            score = score - _refused(grounding, refused, search, promising, (options, parameters))
+            weights = torch.softmax(score / search.temperature, dim=0)
+            at = int(torch.multinomial(weights, 1, generator=generator))
+        probabilities = torch.zeros(networks.layout.skills).index_add_(0, skills, weights)
+        return Choice(
+            skill=int(skills[at]),
+            parameters=parameters[at].double().numpy(),
+            probabilities=(probabilities / probabilities.sum()).double().numpy(),
+            predicted=float(predicted[:, at].mean()),
+        )
+
+    def _drawn(
+        self, actors: tuple[Tensor, Tensor], promising: Tensor, generator: torch.Generator
+    ) -> list[tuple[Tensor, Tensor]]:
+        """Draws of the actors, spots around their middles, and for what never was good, spots everywhere."""
+        mean, log_std = (part[:, None] for part in actors)
+        shape = (len(promising), max(1, self._search.candidates // 2), mean.shape[-1])
+        every = torch.arange(shape[0]).repeat_interleave(shape[1])
+        drawn = torch.tanh(mean + log_std.exp() * torch.randn(shape, generator=generator))
+        spread = torch.tensor(SPREADS)[torch.randint(len(SPREADS), shape, generator=generator)]
+        around = torch.tanh(mean) + spread * torch.randn(shape, generator=generator)
+        inner = _inner(self._grounding, self._search.spacing)[:, None]
+        anywhere = inner * (2 * torch.rand(shape, generator=generator) - 1)
+        free = (self._grounding.option_keypoint < 0)[:, None, None]
+        placed = torch.where(free, anywhere[..., :3], around[..., :3])
+        looked = torch.cat([placed, anywhere[..., 3:]], dim=-1)
+        around = torch.where(promising[:, None, None], around, looked).clamp(-1.0, 1.0)
         # other parameters, at the key point itself
-        centred = anywhere.clone()
-        centred[..., :3] = torch.where(free, anywhere[..., :3], 0.0)
-        parts.append((lost, centred[~promising].flatten(0, 1)))
-    return parts
+        centred = torch.cat([torch.where(free, anywhere[..., :3], 0.0), anywhere[..., 3:]], dim=-1)
+        lost = torch.nonzero(~promising)[:, 0].repeat_interleave(shape[1])
+        parts = ((every, drawn), (every, around), (lost, centred[~promising]))
+        return [(options, local.flatten(0, 1)) for options, local in parts]
 
 
 def _inner(grounding: Grounding, spacing: float) -> Tensor:
@@ -144,21 +136,29 @@ def _decoded(grounding: Grounding, options: Tensor, local: Tensor, here: Tensor)
     if not here.numel():
         return local
     every = grounding.decode(local.expand(grounding.options, -1, -1), here.expand(len(local), *here.shape[1:]))
-    return every[options, torch.arange(len(local))]
+    decoded: Tensor = every[options, torch.arange(len(local))]
+    return decoded
 
 
-def _remembered(grounding: Grounding, replay: Replay, recall: int) -> tuple[Tensor, Tensor]:
+def _remembered(grounding: Grounding, replay: Replay) -> tuple[Tensor, Tensor]:
     """Options and local parameters of what was called good, the newest last."""
     good = replay.good()
     skills, parameters, keypoints = map(torch.from_numpy, (good.skills, good.parameters, good.keypoints))
     return grounding.encode(skills, parameters, keypoints)
 
 
+def _away(grounding: Grounding, options: Tensor, local: Tensor) -> Tensor:
+    """(C,) distance from the option's key point as a share of the radius: what is near is tried first."""
+    lost: Tensor = LOCALITY * local[:, :3].norm(dim=-1) * (grounding.option_keypoint[options] >= 0)
+    return lost
+
+
 def _refused(
-    grounding: Grounding, replay: Replay, search: Search, state: Float32, skills: Tensor, parameters: Tensor
+    grounding: Grounding, refused: Batch, search: Search, promising: Tensor, calls: tuple[Tensor, Tensor]
 ) -> Tensor:
-    """(C,) what each candidate loses for being near something that was refused in this situation."""
-    refused = replay.refused(state, SAME_SITUATION)
+    """(C,) what each candidate loses for what was refused in this situation: nearby, and of the same option at all."""
+    options, parameters = calls
+    skills = grounding.option_skill[options]
     if not len(refused.skills):
         return torch.zeros(len(skills))
     their_skills, theirs = torch.from_numpy(refused.skills), torch.from_numpy(refused.parameters)
@@ -171,7 +171,10 @@ def _refused(
     ours = _coordinates(grounding, scale, skills, parameters)
     away = ours[:, None] - _coordinates(grounding, scale, their_skills, theirs)[None]
     near = torch.exp(-0.5 * away.square().sum(dim=-1)) * (skills[:, None] == their_skills)
-    return REFUSED * near.amax(dim=1)
+    their_options, _ = grounding.encode(their_skills, theirs, torch.from_numpy(refused.keypoints))
+    times = (options[:, None] == their_options).sum(dim=1)
+    tired = (torch.tensor(FATIGUE)[promising[options].long()] * times).clamp(max=MOST_TIRED)
+    return REFUSED * near.amax(dim=1) + tired
 
 
 def _coordinates(grounding: Grounding, scale: Tensor, skills: Tensor, parameters: Tensor) -> Tensor:

@@ -95,8 +95,8 @@ class SeedSettings(BaseModel):
     keypoints: Annotated[
         Literal["none", "all", "skill"],
         Field(
-            description="what the networks are told of task-relevant places (the paper's affordance knowledge): nothing, "
-            "all of them for every skill, or each skill its own (pick at objects, place at what carries them)"
+            description="what the networks are told of task-relevant places (the paper's affordance knowledge): "
+            "nothing, all of them for every skill, or each skill its own (pick at objects, place at what carries them)"
         ),
     ] = "none"
     relative_critic: Annotated[
@@ -114,8 +114,8 @@ class SeedSettings(BaseModel):
         Field(
             ge=0,
             le=1,
-            description="m that the whole scene of a stored label is moved at most, in x and in y, whenever it is drawn; "
-            "0 turns it off. Without effect where the state has no key points, as for every augmentation",
+            description="m that the whole scene of a stored label is moved at most, in x and in y, whenever it is "
+            "drawn; 0 turns it off. Without effect where the state has no key points, as for every augmentation",
         ),
     ] = 0.0
     augment_flip: Annotated[
@@ -124,8 +124,8 @@ class SeedSettings(BaseModel):
     augment_rotation: Annotated[
         bool,
         Field(
-            description="the whole scene of a stored label is turned about the vertical by any angle; by half a turn "
-            "only for a skill whose gripper keeps its yaw, not at all for a push"
+            description="the whole scene of a stored label is turned about the vertical by any angle; without effect "
+            "where a skill pushes or keeps the gripper's yaw"
         ),
     ] = False
     candidates: Annotated[
@@ -159,7 +159,9 @@ class SeedSettings(BaseModel):
     ] = 0.05
     recall: Annotated[
         int,
-        Field(ge=0, le=512, description="newest good calls that are candidates again, each at its key point's new place"),
+        Field(
+            ge=0, le=512, description="newest good calls that are candidates again, each at its key point's new place"
+        ),
     ] = 0
 
 
@@ -187,6 +189,7 @@ RECOMMENDED: Mapping[str, Any] = MappingProxyType(
         "batch_size": 128,
         "gradient_steps": 20,
         "hidden_size": 64,
+        "critics": 2,
         "initial_temperature": 0.2,
         "keypoints": "skill",
         "relative_critic": True,

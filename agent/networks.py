@@ -90,13 +90,13 @@ class Networks(nn.Module):
     ) -> None:
         super().__init__()
         n, K, P = layout.state_size, layout.skills, layout.width
-        O, F = (grounding.options, grounding.features) if grounding else (K, 0)
+        options, features = (grounding.options, grounding.features) if grounding else (K, 0)
         self.layout = layout
         self.grounding = grounding
         self.option_skill = grounding.option_skill if grounding else torch.arange(K)
-        self.skill_actor = StackedMLP(1, [n, *hidden, O], ACTOR_OUTPUT_RANGE, generator)
-        self.parameter_actors = StackedMLP(O, [n, *hidden, 2 * P], ACTOR_OUTPUT_RANGE, generator)
-        self.critics = StackedMLP(critics, [n + K + P + F, *hidden, 1], CRITIC_OUTPUT_RANGE, generator)
+        self.skill_actor = StackedMLP(1, [n, *hidden, options], ACTOR_OUTPUT_RANGE, generator)
+        self.parameter_actors = StackedMLP(options, [n, *hidden, 2 * P], ACTOR_OUTPUT_RANGE, generator)
+        self.critics = StackedMLP(critics, [n + K + P + features, *hidden, 1], CRITIC_OUTPUT_RANGE, generator)
         log_temperature = torch.tensor(initial_temperature).log()
         self.log_skill_temperature = nn.Parameter(log_temperature.clone())
         self.log_parameter_temperature = nn.Parameter(log_temperature.clone())
@@ -125,18 +125,18 @@ class Networks(nn.Module):
 
         local: as the parameter actors put it out. keypoints: (B, K, M, 3), where the grounding has any.
         """
-        O, B = local.shape[0], states.shape[0]
+        count, B = local.shape[0], states.shape[0]
         parameters = self.decode(local, keypoints)
         predicted: Tensor = self.critics(
             self._inputs(
-                states.expand(O, B, -1).reshape(O * B, -1),
+                states.expand(count, B, -1).reshape(count * B, -1),
                 self.option_skill.repeat_interleave(B),
-                parameters.reshape(O * B, -1),
-                None if keypoints is None else keypoints.expand(O, *keypoints.shape).flatten(0, 1),
+                parameters.reshape(count * B, -1),
+                None if keypoints is None else keypoints.expand(count, *keypoints.shape).flatten(0, 1),
             ),
             frozen=True,
         )
-        return predicted.squeeze(-1).amin(dim=0).view(O, B)
+        return predicted.squeeze(-1).amin(dim=0).view(count, B)
 
     def decode(self, local: Tensor, keypoints: Tensor | None) -> Tensor:
         """(O, B, P) of the parameter actors -> (O, B, P) parameters scaled as the skill's bounds are."""

@@ -28,7 +28,8 @@ def choose(
 ) -> Choice:
     """Draw a ~ pi_phi(.|s), x ~ pi_psi(.|s, a); or, deterministic, take the likeliest skill and its actor's middle.
 
-    state: (n,) scaled. keypoints: (K, M, 3) m, empty where the networks know none. A deterministic choice draws nothing from `generator`, so evaluating changes no proposal.
+    state: (n,) scaled. keypoints: (K, M, 3) m, empty where the networks know none. A deterministic choice draws nothing
+    from `generator`, so evaluating changes no proposal.
     predicted is the mean over the critics.
     """
     states = torch.from_numpy(state).unsqueeze(0)

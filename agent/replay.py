@@ -76,9 +76,7 @@ class Replay:
     on the order of arrival, undone labels or a restart.
     """
 
-    def __init__(
-        self, state_size: int, parameter_size: int, keypoints: tuple[int, ...] = NO_KEYPOINTS
-    ) -> None:
+    def __init__(self, state_size: int, parameter_size: int, keypoints: tuple[int, ...] = NO_KEYPOINTS) -> None:
         self._size = 0
         self._ids = np.zeros(INITIAL_CAPACITY, dtype=np.int64)
         self._states = np.zeros((INITIAL_CAPACITY, state_size), dtype=np.float32)

@@ -17,7 +17,7 @@ import torch
 
 from agent import checkpoint, losses
 from agent.algorithm import AgentError, CheckpointError, Label, Problem, Suggestion
-from agent.candidates import Search, choose_ranked
+from agent.candidates import Chooser, Search
 from agent.config import SeedSettings
 from agent.encoding import Encoder
 from agent.grounding import grounding
@@ -64,6 +64,11 @@ class Seed:
         self._skill_entropy_target = settings.skill_entropy * math.log(self._grounding.options)
         self._parameter_entropy_target = settings.parameter_entropy * self._networks.mask.sum(dim=-1)
         self._replay = Replay(layout.state_size, layout.width, self._encoder.keypoint_shape)
+        self._chooser: Chooser | None = None
+        if settings.candidates:
+            s = settings
+            search = Search(s.candidates, s.candidate_temperature, s.explore_optimism, s.explore_spacing, s.recall)
+            self._chooser = Chooser(self._networks, self._grounding, self._replay, search)
         self._forgotten: set[int] = set()
         self._labels_seen = 0
         self._owed = 0
@@ -97,21 +102,10 @@ class Seed:
         )
 
     def _choose(self, state: Array, *, deterministic: bool) -> Choice:
-        scaled, s = self._encoder.state(state), self._settings
-        if not s.candidates:
-            keypoints = self._encoder.keypoints(state)
-            return choose(self._networks, scaled, keypoints, self._proposing, deterministic=deterministic)
-        search = Search(s.candidates, s.candidate_temperature, s.explore_optimism, s.explore_spacing, s.recall)
-        return choose_ranked(
-            self._networks,
-            self._grounding,
-            self._replay,
-            search,
-            scaled,
-            self._encoder.keypoints(state),
-            self._proposing,
-            deterministic=deterministic,
-        )
+        scaled, keypoints = self._encoder.state(state), self._encoder.keypoints(state)
+        if self._chooser is not None:
+            return self._chooser.choose(scaled, keypoints, self._proposing, deterministic=deterministic)
+        return choose(self._networks, scaled, keypoints, self._proposing, deterministic=deterministic)
 
     def add(self, labels: Sequence[Label]) -> None:
         """Take labels into the replay and owe their gradient steps. Each is taken once.

@@ -4,7 +4,7 @@ Everything is moved together: positions in the state, key points (so also those 
 out) and the call. Heights, flags and whatever else the state holds stay. What the scene does not share is left alone:
 - how far a push goes depends on where it must end, which neither state nor key points tell. Such a label is moved and
   mirrored across its direction only;
-- a gripper with a fixed yaw closes along a fixed direction. Such a label is turned by half a turn only.
+- where the gripper keeps its yaw, or pushes along x or y, there is a front: nothing is turned.
 """
 
 from __future__ import annotations
@@ -27,7 +27,9 @@ class Symmetries:
 
     def __init__(self, problem: Problem, *, translation: float, flip: bool, rotation: bool) -> None:
         """translation: m, at most so far in x and in y."""
-        self._translation, self._flip, self._rotation = translation, flip, rotation
+        self._translation, self._flip = translation, flip
+        fronted = any(s.yaw is not None or column(s, "direction") >= 0 for s in problem.skills)
+        self._rotation = rotation and not fronted
         self._fields = np.array(problem.position_fields, dtype=np.int64)
         low, high = np.asarray(problem.state_low), np.asarray(problem.state_high)
         self._low, self._half = low, np.where(high > low, (high - low) / 2, 1.0)
@@ -41,17 +43,13 @@ class Symmetries:
         shift = rng.uniform(-self._translation, self._translation, (size, 2))
         mirrored = rng.random(size) < (0.5 if self._flip else 0.0)
         angle = rng.uniform(-math.pi, math.pi, size) if self._rotation else np.zeros(size)
-        half_turn = rng.random(size) < (0.5 if self._rotation else 0.0)
         for k, spec in enumerate(self._skills):
-            rows = batch.skills == k
             direction = column(spec, "direction")
             if direction >= 0:
-                along_y = rows & (batch.parameters[:, direction] >= 0)
-                shift[rows & ~along_y, 0] = shift[along_y, 1] = 0.0
-                angle[rows] = 0.0
-                angle[along_y & mirrored] = math.pi  # mirrored and turned by half: mirrored in x
-            elif spec.yaw is not None and column(spec, "yaw") < 0:
-                angle[rows] = np.where(half_turn[rows], math.pi, 0.0)
+                along_y = batch.parameters[:, direction] >= 0
+                shift[(batch.skills == k) & ~along_y, 0] = 0.0
+                shift[(batch.skills == k) & along_y, 1] = 0.0
+                mirrored[(batch.skills == k) & along_y] = False
         return self.moved(batch, shift, np.where(mirrored, -1.0, 1.0), angle)
 
     def moved(self, batch: Batch, shift: Float, flip: Float, angle: Float) -> Batch:
