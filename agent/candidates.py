@@ -23,8 +23,8 @@ SPREADS = (0.0, 0.1, 0.3, 0.6)
 """Standard deviations of the spots around an option's middle, drawn for each parameter, shares of its range."""
 JITTER = 0.1
 """Standard deviation of the spots around what was good before, likewise."""
-REFUSED = 2.0
-"""What a refused call takes off its own score: the whole range of labels."""
+REFUSED = 3.0
+"""What a refused call takes off its own score: more than all that may speak for it."""
 LOCAL_REACH = 0.125
 """How far a refusal reaches around a key point, as a share of the grounding radius."""
 LOCALITY = 1.5
