@@ -27,6 +27,8 @@ REFUSED = 3.0
 """What a refused call takes off its own score: more than all that may speak for it."""
 LOCAL_REACH = 0.125
 """How far a refusal reaches around a key point, as a share of the grounding radius."""
+KNOWN_REACH = 0.25
+"""How far it reaches without one once the skill was called good, as a share of `explore_spacing`."""
 LOCALITY = 1.5
 """What a candidate loses at the grounding radius: of calls that promise alike, the one nearer the key point is made."""
 FATIGUE = (0.1, 0.5)
@@ -71,17 +73,20 @@ class Chooser:
         promising = torch.zeros(grounding.options, dtype=torch.bool)
         promising[options] = True
         recalled = max(0, len(options) - search.recall)
-        options, local = options[recalled:], local[recalled:]
+        options, local = good = options[recalled:], local[recalled:]
         parts = [(torch.arange(grounding.options), torch.tanh(mean)), (options, local)]
         if not deterministic:
             parts += self._drawn((mean, log_std), promising, generator)
             parts.append((options, local + JITTER * torch.randn(local.shape, generator=generator)))
+            # the same position, other parameters: how far a push goes may differ from state to state
+            anew = 2 * torch.rand(local[:, 3:].shape, generator=generator) - 1
+            parts.append((options, torch.cat([local[:, :3], anew], dim=-1)))
         options = torch.cat([o for o, _ in parts])
         local = torch.cat([x for _, x in parts]) * networks.mask[options, 0]
         parameters = _decoded(grounding, options, local, here).clamp(-1.0, 1.0) * networks.mask[options, 0]
         skills, size = grounding.option_skill[options], len(options)
         predicted = networks.predict(states.expand(size, -1), skills, parameters, here.expand(size, *here.shape[1:]))
-        score = predicted.amin(dim=0).clamp(min=-1.0) - _away(grounding, options, local)
+        score = predicted.amin(dim=0).clamp(min=-1.0) - _away(grounding, good, options, local)
         if deterministic:
             at = int(score.argmax())
             weights = torch.zeros(size)
@@ -147,10 +152,15 @@ def _remembered(grounding: Grounding, replay: Replay) -> tuple[Tensor, Tensor]:
     return grounding.encode(skills, parameters, keypoints)
 
 
-def _away(grounding: Grounding, options: Tensor, local: Tensor) -> Tensor:
-    """(C,) distance from the option's key point as a share of the radius: what is near is tried first."""
-    lost: Tensor = LOCALITY * local[:, :3].norm(dim=-1) * (grounding.option_keypoint[options] >= 0)
-    return lost
+def _away(grounding: Grounding, good: tuple[Tensor, Tensor], options: Tensor, local: Tensor) -> Tensor:
+    """(C,) distance from what was good, or else from the key point, as a share of the range: near comes first."""
+    from_keypoint: Tensor = local[:, :3].norm(dim=-1) * (grounding.option_keypoint[options] >= 0)
+    if not len(good[0]):
+        return LOCALITY * from_keypoint
+    distance = (local[:, None, :3] - good[1][None, :, :3]).norm(dim=-1)
+    from_good = distance.masked_fill(options[:, None] != good[0], torch.inf).amin(dim=1)
+    nearest: Tensor = torch.where(from_good.isfinite(), from_good, from_keypoint)
+    return LOCALITY * nearest
 
 
 def _refused(
@@ -164,7 +174,9 @@ def _refused(
     their_skills, theirs = torch.from_numpy(refused.skills), torch.from_numpy(refused.parameters)
     grounded = torch.zeros(len(grounding.half), dtype=torch.bool)
     grounded[grounding.option_skill[grounding.option_keypoint >= 0]] = True
-    reach = torch.where(grounded, LOCAL_REACH * grounding.radius, search.spacing)
+    known = torch.zeros(len(grounding.half), dtype=torch.bool)
+    known[grounding.option_skill[promising]] = True
+    reach = torch.where(grounded, LOCAL_REACH * grounding.radius, torch.where(known, KNOWN_REACH, 1.0) * search.spacing)
     scale = torch.full_like(grounding.half, 1.0 / OTHER_REACH)
     where = grounding.position
     scale[where, :3] = grounding.half[where, :3] / reach[where, None]

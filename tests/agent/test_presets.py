@@ -1,23 +1,27 @@
-"""What the preset `recommended` adds to SEED, each ingredient by itself and all together."""
+"""Every preset, on real tasks: it repeats exactly, resumes exactly, forgets without a trace and stays in bounds."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 import torch
 
-from agent.algorithm import AgentError, Label, Problem
+from agent.algorithm import Algorithm, CheckpointError, Label, Suggestion
 from agent.config import SEED, SeedSettings
-from agent.encoding import Encoder
-from agent.grounding import grounding
-from robot_adapters import registry
-from robot_adapters.base import Adapter, SkillCall, check_call
-from tests.agent.problems import PICK, RELEASE, judged, of_task, problem
+from agent.seed import Seed
+from robot_adapters.base import check_call
+from tests.agent.problems import judged, of_task
 
-QUICK: dict[str, Any] = {"hidden_size": 16, "batch_size": 16, "gradient_steps": 2}
+FEW: dict[str, Any] = {"hidden_size": 16, "batch_size": 16, "train_frequency": 1, "gradient_steps": 2}
+
+
+def of_preset(preset: str, task: str, number: int = 0) -> Seed:
+    learner = SEED(of_task(task), SeedSettings(**{**SEED.presets[preset], **FEW}), number)
+    assert isinstance(learner, Seed)
+    return learner
 
 
 @pytest.fixture(autouse=True)
@@ -25,117 +29,77 @@ def _one_thread() -> None:
     torch.set_num_threads(1)
 
 
-def kinematic(task: str) -> Adapter:
-    factory = registry.adapter("kinematic")
-    return factory(task, factory.settings.model_validate({"draw": False}))
-
-
-def solved(task_name: str, feedback: int) -> float:
-    """Share of 20 rollouts that succeed after so many labels of the synthetic teacher."""
-    task, robot = registry.task(task_name), kinematic(task_name)
-    learner = SEED(of_task(task_name), SeedSettings(**SEED.presets["recommended"]), 0)
-    try:
-        state = robot.reset(0).state
-        for label_id in range(1, feedback + 1):
-            call = learner.propose(state).call
-            value = task.judge(state, call)
-            learner.add([Label(label_id, state, call, value)])
-            while learner.owed_updates:
-                learner.update()
-            if value == 1:
-                result = robot.execute(call, should_stop=lambda: False, on_step=lambda: None)
-                over = result.success or result.violations
-                state = robot.reset().state if over else robot.observe().state
-        good = 0
-        for start in range(20):
-            state = robot.reset(500 + start).state
-            for _ in range(task.horizon):
-                call = learner.propose(state, deterministic=True).call
-                if robot.execute(call, should_stop=lambda: False, on_step=lambda: None).success:
-                    break
-                state = robot.observe().state
-            good += robot.success()
-        return good / 20
-    finally:
-        robot.close()
-
-
-# the bars of one seed; `tests/benchmarks/clicks_kinematic.py` has the means of several
-@pytest.mark.parametrize(("task", "feedback"), [("stacking", 25), ("reaching", 60)])
-def test_few_clicks_are_enough(task: str, feedback: int) -> None:
-    assert solved(task, feedback) >= 0.9
-
-
-@pytest.mark.parametrize(
-    "off",
-    [
-        {"relative_critic": False},
-        {"grounded_actor": False},
-        {"augment_translation": 0.0, "augment_flip": False, "augment_rotation": False},
-        {"candidates": 0},
-        {"recall": 0},
-        {"keypoints": "all"},
-        {"keypoints": "none"},
-    ],
-    ids=lambda off: next(iter(off)),
-)
-@pytest.mark.parametrize("task", ["collecting_toy", "cooking_hotdog"])
-def test_each_ingredient_can_be_taken_away(task: str, off: Mapping[str, Any]) -> None:
-    learner = SEED(of_task(task), SeedSettings(**{**SEED.presets["recommended"], **QUICK, **off}), 0)
-    labels = judged(task, 12)
-    learner.add(labels)
+def work_off(learner: Algorithm) -> None:
     while learner.owed_updates:
-        metrics = learner.update()
-        assert metrics is not None
-        assert all(np.isfinite(value) for value in metrics.values())
-    for label in labels:
-        check_call(learner.propose(label.state).call, of_task(task).skills)
+        learner.update()
 
 
-def test_a_fresh_grounded_actor_goes_to_key_points() -> None:
-    learner = SEED(of_task("stacking"), SeedSettings(**SEED.presets["recommended"]), 0)
-    for label in judged("stacking", 10):
-        call = learner.propose(label.state, deterministic=True).call
-        point = registry.task("stacking").keypoints(label.state, call.skill)[0]
-        np.testing.assert_allclose(call.parameters, point, atol=1e-3)
+def drawn(learner: Seed, states: Sequence[Label]) -> list[Suggestion]:
+    """Proposals in the states of some labels, sampled and deterministic."""
+    return [learner.propose(label.state, deterministic=sure) for label in states for sure in (False, True)]
 
 
-def test_a_refused_call_is_not_made_again_in_the_same_situation() -> None:
-    """Reaching's release has no parameters: once refused, only reaches are proposed, well apart."""
-    learner = SEED(of_task("reaching"), SeedSettings(**{**SEED.presets["recommended"], **QUICK}), 0)
-    state = np.array([0.5, 0.0, 0.1, 0.0])
-    learner.add([Label(1, state, SkillCall("release"), -1)])
-    spots = []
-    for label_id in range(2, 22):
-        call = learner.propose(state).call
-        assert call.skill == "reach"
-        spots.append(call.parameters)
-        learner.add([Label(label_id, state, call, -1)])
-    away = np.linalg.norm(np.array(spots)[:, None] - np.array(spots)[None], axis=-1) + np.eye(20)
-    assert away.min() > 0.03
+preset_and_task = pytest.mark.parametrize(
+    ("preset", "task"),
+    [(preset, task) for preset in SEED.presets for task in ("stacking", "reaching", "collecting_toy")],
+)
 
 
-def test_local_parameters_and_calls_are_each_others_reverse() -> None:
-    problem_ = of_task("cooking_hotdog")
-    encoder = Encoder(problem_, keypoints="skill")
-    assert encoder.keypoint_counts == (2, 3)
-    ground = grounding(problem_.skills, encoder.keypoint_counts, grounded=True, relative=True, radius=0.04)
-    state = judged("cooking_hotdog", 1)[0].state
-    keypoints = torch.from_numpy(encoder.keypoints(state))[None]
-    local = 0.5 * torch.rand((ground.options, 1, 3), generator=torch.Generator().manual_seed(0))
-    calls = ground.decode(local, keypoints)[:, 0]
-    options, again = ground.encode(ground.option_skill, calls, keypoints.expand(ground.options, -1, -1, -1))
-    assert options.tolist() == list(range(5))
-    torch.testing.assert_close(again, local[:, 0], atol=1e-5, rtol=0)
+@preset_and_task
+def test_a_preset_repeats_and_resumes_bit_for_bit(preset: str, task: str, tmp_path: Path) -> None:
+    stored = judged(task, 40)
+    learner, twin = of_preset(preset, task), of_preset(preset, task)
+    for each in (learner, twin):
+        each.add(stored[:20])
+        drawn(each, stored[:2])
+        for _ in range(13):
+            each.update()
+    learner.save(tmp_path / "a.ckpt")
+    other = of_preset(preset, task, number=99)
+    other.load(tmp_path / "a.ckpt")
+    other.restore(stored[:20])
+    before = drawn(learner, stored[:3])
+    assert drawn(twin, stored[:3]) == before
+    assert drawn(other, stored[:3]) == before
+    for each in (learner, twin, other):
+        each.add(stored[20:])
+        work_off(each)
+    after = drawn(learner, stored[-3:])
+    assert drawn(twin, stored[-3:]) == after
+    assert drawn(other, stored[-3:]) == after
+    for ours, theirs in zip(learner._networks.parameters(), other._networks.parameters(), strict=True):
+        assert torch.equal(ours, theirs)
 
 
-def test_changing_key_points_are_told() -> None:
-    told = problem(PICK, RELEASE)
-    growing = Problem(
-        told.task, told.state_low, told.state_high, told.skills, keypoints=lambda state, _: np.zeros((int(state[0]), 3))
-    )
-    learner = SEED(growing, SeedSettings(**{**SEED.presets["recommended"], **QUICK}), 0)
-    learner.propose(np.ones(3))
-    with pytest.raises(AgentError, match="key points") as error:
-        learner.propose(np.full(3, 2.0))
-    assert "keypoints" in error.value.remedy
+@preset_and_task
+def test_a_preset_forgets_without_a_trace(preset: str, task: str, tmp_path: Path) -> None:
+    stored, learner = judged(task, 30), of_preset(preset, task)
+    learner.add(stored)
+    learner.forget(7)
+    learner.save(tmp_path / "a.ckpt")
+    other = of_preset(preset, task, number=1)
+    other.load(tmp_path / "a.ckpt")
+    other.restore([label for label in stored if label.id != 7])
+    work_off(learner)
+    work_off(other)
+    assert drawn(learner, stored[5:8]) == drawn(other, stored[5:8])
+
+
+@preset_and_task
+def test_a_preset_looks_without_disturbing_and_stays_in_bounds(preset: str, task: str) -> None:
+    stored, looked, plain = judged(task, 20), of_preset(preset, task), of_preset(preset, task)
+    for each in (looked, plain):
+        each.add(stored)
+        work_off(each)
+    looked.propose(stored[0].state, deterministic=True)
+    assert [looked.propose(label.state) for label in stored] == [plain.propose(label.state) for label in stored]
+    for suggestion in drawn(looked, stored):
+        check_call(suggestion.call, of_task(task).skills)
+        assert sum(suggestion.skill_probabilities.values()) == pytest.approx(1)
+
+
+def test_a_checkpoint_of_another_grounding_is_refused(tmp_path: Path) -> None:
+    of_preset("recommended", "stacking").save(tmp_path / "a.ckpt")
+    settings = SeedSettings(**{**SEED.presets["recommended"], **FEW, "grounded_actor": False})
+    with pytest.raises(CheckpointError, match="grounded_actor: file has"):
+        SEED(of_task("stacking"), settings, 0).load(tmp_path / "a.ckpt")
