@@ -31,6 +31,8 @@ KNOWN_REACH = 0.25
 """How far it reaches without one once the skill was called good, as a share of `explore_spacing`."""
 LOCALITY = 1.5
 """What a candidate loses at the grounding radius: of calls that promise alike, the one nearer the key point is made."""
+PUSH_LOCALITY = 4.0
+"""So many times that, while no push was called good: its direction and length are looked for first, its start later."""
 FATIGUE = (0.1, 0.5)
 """What each refusal in this situation takes off all candidates of its option, so that others get their turn: of one
 that never was called good, and of one whose good calls were elsewhere, which is probably not due here."""
@@ -155,6 +157,8 @@ def _remembered(grounding: Grounding, replay: Replay) -> tuple[Tensor, Tensor]:
 def _away(grounding: Grounding, good: tuple[Tensor, Tensor], options: Tensor, local: Tensor) -> Tensor:
     """(C,) distance from what was good, or else from the key point, as a share of the range: near comes first."""
     from_keypoint: Tensor = local[:, :3].norm(dim=-1) * (grounding.option_keypoint[options] >= 0)
+    pushes = grounding.delta[grounding.option_skill[options]] >= 0
+    from_keypoint = torch.where(pushes, PUSH_LOCALITY, 1.0) * from_keypoint
     if not len(good[0]):
         return LOCALITY * from_keypoint
     distance = (local[:, None, :3] - good[1][None, :, :3]).norm(dim=-1)
