@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
@@ -30,6 +30,9 @@ class Problem:
 
     state_low, state_high: (n,) bounds used to scale the state to about [-1, 1].
     state_names: a name for each of the n entries, for messages; may be left out.
+    keypoints: (n,) state and a skill's name (None: all skills) -> (k, 3) m, robot base frame, where the grip site acts
+    on task-relevant objects (`Task.keypoints`); None where there are none. k is the same in every state.
+    position_fields: indices into the state where an x in m stands with its y right after, both in the base frame.
     """
 
     task: str
@@ -37,6 +40,8 @@ class Problem:
     state_high: Array
     skills: tuple[SkillSpec, ...]
     state_names: tuple[str, ...] = ()
+    keypoints: Callable[[Array, str | None], Array] | None = None
+    position_fields: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -92,6 +92,77 @@ class SeedSettings(BaseModel):
             "(MAPLE and SAC: -1; a uniform distribution has log 2)",
         ),
     ] = -1.0
+    keypoints: Annotated[
+        Literal["none", "all", "skill"],
+        Field(
+            description="what the networks are told of task-relevant places (the paper's affordance knowledge): "
+            "nothing, all of them for every skill, or each skill its own (pick at objects, place at what carries them)"
+        ),
+    ] = "none"
+    relative_critic: Annotated[
+        bool, Field(description="the critic also reads the parameters relative to the skill's key points")
+    ] = False
+    grounded_actor: Annotated[
+        bool,
+        Field(description="the actor chooses a key point with the skill, and its parameters are an offset from there"),
+    ] = False
+    grounding_radius: Annotated[
+        float, Field(gt=0, le=0.5, description="m from its key point that a grounded offset reaches in x, y and z")
+    ] = 0.04
+    augment_translation: Annotated[
+        float,
+        Field(
+            ge=0,
+            le=1,
+            description="m that the whole scene of a stored label is moved at most, in x and in y, whenever it is "
+            "drawn; 0 turns it off. Without effect where the state has no key points, as for every augmentation",
+        ),
+    ] = 0.0
+    augment_flip: Annotated[
+        bool, Field(description="the whole scene of a stored label is mirrored in y, every other time it is drawn")
+    ] = False
+    augment_rotation: Annotated[
+        bool,
+        Field(
+            description="the whole scene of a stored label is turned about the vertical by any angle; without effect "
+            "where a skill pushes or keeps the gripper's yaw"
+        ),
+    ] = False
+    candidates: Annotated[
+        int,
+        Field(
+            ge=0,
+            le=4096,
+            description="calls drawn for each skill (and key point) of which the critic's favourite is proposed; 0 "
+            "proposes what the actors draw, as the paper does",
+        ),
+    ] = 0
+    candidate_temperature: Annotated[
+        float,
+        Field(gt=0, le=10, description="softness of the choice among candidates, in units of predicted feedback"),
+    ] = 0.1
+    explore_optimism: Annotated[
+        float,
+        Field(
+            ge=0,
+            le=2,
+            description="added to the score of a candidate whose skill (and key point) was never called good",
+        ),
+    ] = 1.0
+    explore_spacing: Annotated[
+        float,
+        Field(
+            gt=0,
+            le=0.5,
+            description="m around a refused spot without a key point where candidates of the same situation lose score",
+        ),
+    ] = 0.05
+    recall: Annotated[
+        int,
+        Field(
+            ge=0, le=512, description="newest good calls that are candidates again, each at its key point's new place"
+        ),
+    ] = 0
 
 
 PAPER_SIM: Mapping[str, Any] = MappingProxyType(
@@ -112,6 +183,27 @@ PAPER_REAL: Mapping[str, Any] = MappingProxyType(
 """Paper, table of training hyper-parameters, column SEED, right of the slash."""
 
 
+RECOMMENDED: Mapping[str, Any] = MappingProxyType(
+    {
+        "learning_rate": 1e-3,
+        "batch_size": 128,
+        "gradient_steps": 20,
+        "hidden_size": 64,
+        "critics": 2,
+        "initial_temperature": 0.2,
+        "keypoints": "skill",
+        "relative_critic": True,
+        "grounded_actor": True,
+        "augment_translation": 0.1,
+        "augment_flip": True,
+        "augment_rotation": True,
+        "candidates": 32,
+        "recall": 16,
+    }
+)
+"""What needs the fewest clicks (measured by `tests/benchmarks/clicks_kinematic.py`)."""
+
+
 class SeedFactory:
     """Builds SEED (paper, section III). Imports torch only when called."""
 
@@ -121,7 +213,9 @@ class SeedFactory:
         "good, neutral and bad"
     )
     settings: type[BaseModel] = SeedSettings
-    presets: Mapping[str, Mapping[str, Any]] = MappingProxyType({"paper_sim": PAPER_SIM, "paper_real": PAPER_REAL})
+    presets: Mapping[str, Mapping[str, Any]] = MappingProxyType(
+        {"paper_sim": PAPER_SIM, "paper_real": PAPER_REAL, "recommended": RECOMMENDED}
+    )
 
     def __call__(self, problem: Problem, settings: BaseModel, seed: int) -> Algorithm:
         """Build the learner.

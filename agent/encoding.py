@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -15,8 +15,8 @@ from robot_adapters.base import Array, InvalidCall, SkillCall, check_call
 class Encoder:
     """What one task's numbers look like inside. Checks everything that enters."""
 
-    def __init__(self, problem: Problem) -> None:
-        """Check the problem.
+    def __init__(self, problem: Problem, *, keypoints: Literal["none", "all", "skill"] = "none") -> None:
+        """Check the problem. keypoints: whether each skill has none, all that the task names, or its own.
 
         Raises:
             AgentError: no skills, two of one name, or bounds that are not finite or not one each for every state entry.
@@ -37,6 +37,9 @@ class Encoder:
                 remedy="give a finite low and high for every entry of the state, low at most high",
             )
         self._index = {name: index for index, name in enumerate(names)}
+        middle = (self._low + self._high) / 2
+        self._keypoints = keypoints
+        self._keypoint_counts = tuple(len(self._keypoints_of(middle, spec.name)) for spec in problem.skills)
 
     @property
     def state_size(self) -> int:
@@ -52,6 +55,41 @@ class Encoder:
     def skill_names(self) -> tuple[str, ...]:
         """In the order of the networks' outputs."""
         return tuple(self._index)
+
+    @property
+    def keypoint_counts(self) -> tuple[int, ...]:
+        """Key points of each skill."""
+        return self._keypoint_counts
+
+    @property
+    def keypoint_shape(self) -> tuple[int, int, int]:
+        """(K, M, 3) of `keypoints`; empty where no skill has any."""
+        return (len(self._index), max(self._keypoint_counts), 3) if any(self._keypoint_counts) else (0, 0, 3)
+
+    def keypoints(self, state: Array) -> Float32:
+        """(n,) in its own units -> (K, M, 3) m, robot base frame; a skill with fewer than M repeats its last one.
+
+        Raises:
+            AgentError: there are not as many as before, or one is not finite.
+        """
+        points = np.zeros(self.keypoint_shape, dtype=np.float32)
+        if not points.size:
+            return points
+        for k, (name, count) in enumerate(zip(self._index, self._keypoint_counts, strict=True)):
+            found = self._keypoints_of(np.asarray(state, dtype=np.float64), name)
+            if found.shape != (count, 3) or not np.isfinite(found).all():
+                raise AgentError(
+                    f"task {self._problem.task!r} has the key points {found.tolist()} for {name!r}, not {count}",
+                    remedy="let the task's `keypoints` give as many finite (x, y, z) in every state",
+                )
+            if count:
+                points[k] = found[np.minimum(np.arange(points.shape[1]), count - 1)]
+        return points
+
+    def _keypoints_of(self, state: Array, skill: str) -> Array:
+        if self._keypoints == "none" or self._problem.keypoints is None:
+            return np.zeros((0, 3))
+        return self._problem.keypoints(state, skill if self._keypoints == "skill" else None)
 
     def state(self, state: Array) -> Float32:
         """(n,) in its own units -> (n,) scaled; an entry whose bounds coincide becomes 0.
@@ -98,6 +136,7 @@ class Encoder:
             parameters=parameters,
             value=int(label.value),
             target=float(label.value) - (0.0 if label.near else affordance_penalty),
+            keypoints=self.keypoints(label.state),
         )
 
     def call(self, skill: int, parameters: Array) -> SkillCall:

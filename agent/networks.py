@@ -1,6 +1,8 @@
 """Skill actor, parameter actors and human critic as stacks of small networks evaluated together.
 
-Shapes: B states, n state entries, K skills, P parameters of the longest skill, E critics.
+Shapes: B states, n state entries, K skills, P parameters of the longest skill, E critics, O options. An option is what
+the skill actor chooses and a parameter actor fills in: a skill, or with a grounded actor a skill at one of its key
+points (`agent.grounding`). Without one, options and skills are the same, as in the paper.
 """
 
 from __future__ import annotations
@@ -11,6 +13,8 @@ from itertools import pairwise
 
 import torch
 from torch import Tensor, nn
+
+from agent.grounding import Grounding
 
 LOG_STD_MIN, LOG_STD_MAX = -20.0, 2.0  # SAC's and MAPLE's bounds
 LOGIT_BOUND = 10.0  # MAPLE: keeps every skill's probability above zero
@@ -82,41 +86,66 @@ class Networks(nn.Module):
         critics: int,
         initial_temperature: float,
         generator: torch.Generator,
+        grounding: Grounding | None = None,
     ) -> None:
         super().__init__()
         n, K, P = layout.state_size, layout.skills, layout.width
+        options, features = (grounding.options, grounding.features) if grounding else (K, 0)
         self.layout = layout
-        self.skill_actor = StackedMLP(1, [n, *hidden, K], ACTOR_OUTPUT_RANGE, generator)
-        self.parameter_actors = StackedMLP(K, [n, *hidden, 2 * P], ACTOR_OUTPUT_RANGE, generator)
-        self.critics = StackedMLP(critics, [n + K + P, *hidden, 1], CRITIC_OUTPUT_RANGE, generator)
+        self.grounding = grounding
+        self.option_skill = grounding.option_skill if grounding else torch.arange(K)
+        self.skill_actor = StackedMLP(1, [n, *hidden, options], ACTOR_OUTPUT_RANGE, generator)
+        self.parameter_actors = StackedMLP(options, [n, *hidden, 2 * P], ACTOR_OUTPUT_RANGE, generator)
+        self.critics = StackedMLP(critics, [n + K + P + features, *hidden, 1], CRITIC_OUTPUT_RANGE, generator)
         log_temperature = torch.tensor(initial_temperature).log()
         self.log_skill_temperature = nn.Parameter(log_temperature.clone())
         self.log_parameter_temperature = nn.Parameter(log_temperature.clone())
         self.mask: Tensor
         self.one_hot: Tensor
-        self.register_buffer("mask", layout.mask(), persistent=False)
+        self.register_buffer("mask", layout.mask()[self.option_skill], persistent=False)
         self.register_buffer("one_hot", torch.eye(K), persistent=False)
 
     def skill_log_probabilities(self, states: Tensor) -> Tensor:
-        """(B, n) -> (B, K) log pi_phi(a|s)."""
+        """(B, n) -> (B, O) log pi_phi(a|s)."""
         logits = self.skill_actor(states)[0].clamp(-LOGIT_BOUND, LOGIT_BOUND)
         return torch.log_softmax(logits, dim=-1)
 
     def parameter_distributions(self, states: Tensor) -> tuple[Tensor, Tensor]:
-        """(B, n) -> mean and log standard deviation (K, B, P) before tanh; padded columns are meaningless."""
+        """(B, n) -> mean and log standard deviation (O, B, P) before tanh; padded columns are meaningless."""
         mean, log_std = self.parameter_actors(states).chunk(2, dim=-1)
         return mean, log_std.clamp(LOG_STD_MIN, LOG_STD_MAX)
 
-    def predict(self, states: Tensor, skills: Tensor, parameters: Tensor) -> Tensor:
+    def predict(self, states: Tensor, skills: Tensor, parameters: Tensor, keypoints: Tensor | None = None) -> Tensor:
         """H_theta(s, a, x) of each critic: (B, n), (B,) indices, (B, P) in [-1, 1], padded with 0 -> (E, B)."""
-        predicted: Tensor = self.critics(torch.cat([states, self.one_hot[skills], parameters], dim=-1))
+        predicted: Tensor = self.critics(self._inputs(states, skills, parameters, keypoints))
         return predicted.squeeze(-1)
 
-    def predict_every_skill(self, states: Tensor, parameters: Tensor) -> Tensor:
-        """The lowest H_theta(s, a, x_a) for every skill: (B, n), (K, B, P) -> (K, B). The critics get no gradient."""
-        K, B = parameters.shape[0], states.shape[0]
-        rows = torch.cat(
-            [states.expand(K, B, -1), self.one_hot.unsqueeze(1).expand(K, B, K), parameters], dim=-1
-        ).reshape(K * B, -1)
-        predicted: Tensor = self.critics(rows, frozen=True)
-        return predicted.squeeze(-1).amin(dim=0).view(K, B)
+    def predict_every_skill(self, states: Tensor, local: Tensor, keypoints: Tensor | None = None) -> Tensor:
+        """The lowest H_theta(s, a, x_a) for every option: (B, n), (O, B, P) -> (O, B). The critics get no gradient.
+
+        local: as the parameter actors put it out. keypoints: (B, K, M, 3), where the grounding has any.
+        """
+        count, B = local.shape[0], states.shape[0]
+        parameters = self.decode(local, keypoints)
+        predicted: Tensor = self.critics(
+            self._inputs(
+                states.expand(count, B, -1).reshape(count * B, -1),
+                self.option_skill.repeat_interleave(B),
+                parameters.reshape(count * B, -1),
+                None if keypoints is None else keypoints.expand(count, *keypoints.shape).flatten(0, 1),
+            ),
+            frozen=True,
+        )
+        return predicted.squeeze(-1).amin(dim=0).view(count, B)
+
+    def decode(self, local: Tensor, keypoints: Tensor | None) -> Tensor:
+        """(O, B, P) of the parameter actors -> (O, B, P) parameters scaled as the skill's bounds are."""
+        if self.grounding is None or keypoints is None or not keypoints.numel():
+            return local
+        return self.grounding.decode(local, keypoints) * self.mask
+
+    def _inputs(self, states: Tensor, skills: Tensor, parameters: Tensor, keypoints: Tensor | None) -> Tensor:
+        parts = [states, self.one_hot[skills], parameters]
+        if self.grounding is not None and self.grounding.features and keypoints is not None:
+            parts.append(self.grounding.read(skills, parameters, keypoints))
+        return torch.cat(parts, dim=-1)

@@ -23,27 +23,34 @@ class Choice:
 
 
 @torch.inference_mode()
-def choose(networks: Networks, state: Float32, generator: torch.Generator, *, deterministic: bool) -> Choice:
+def choose(
+    networks: Networks, state: Float32, keypoints: Float32, generator: torch.Generator, *, deterministic: bool
+) -> Choice:
     """Draw a ~ pi_phi(.|s), x ~ pi_psi(.|s, a); or, deterministic, take the likeliest skill and its actor's middle.
 
-    state: (n,) scaled. A deterministic choice draws nothing from `generator`, so evaluating changes no proposal.
+    state: (n,) scaled. keypoints: (K, M, 3) m, empty where the networks know none. A deterministic choice draws nothing
+    from `generator`, so evaluating changes no proposal.
     predicted is the mean over the critics.
     """
     states = torch.from_numpy(state).unsqueeze(0)
+    here = torch.from_numpy(keypoints).unsqueeze(0)
     probabilities = networks.skill_log_probabilities(states)[0].exp()
     mean, log_std = (part[:, 0] for part in networks.parameter_distributions(states))
     if deterministic:
-        skill = int(probabilities.argmax())
-        before = mean[skill]
+        option = int(probabilities.argmax())
+        before = mean[option]
     else:
-        skill = int(torch.multinomial(probabilities, 1, generator=generator))
+        option = int(torch.multinomial(probabilities, 1, generator=generator))
         noise = torch.randn(mean.shape[-1], generator=generator)
-        before = mean[skill] + log_std[skill].exp() * noise
-    parameters = torch.tanh(before) * networks.mask[skill, 0]
-    predicted = networks.predict(states, torch.tensor([skill]), parameters.unsqueeze(0)).mean()
+        before = mean[option] + log_std[option].exp() * noise
+    local = torch.tanh(before).expand(len(probabilities), 1, -1)
+    parameters = networks.decode(local, here)[option, 0].clamp(-1.0, 1.0) * networks.mask[option, 0]
+    skill = networks.option_skill[option]
+    predicted = networks.predict(states, skill.unsqueeze(0), parameters.unsqueeze(0), here).mean()
+    by_skill = torch.zeros(networks.layout.skills).index_add_(0, networks.option_skill, probabilities)
     return Choice(
-        skill=skill,
+        skill=int(skill),
         parameters=parameters.numpy().astype(np.float64),
-        probabilities=probabilities.numpy().astype(np.float64),
+        probabilities=by_skill.numpy().astype(np.float64),
         predicted=float(predicted),
     )

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,11 @@ from numpy.typing import NDArray
 Float32 = NDArray[np.float32]
 """A float32 array, ready for a network."""
 
+NO_KEYPOINTS = (0, 0, 3)
+
 INITIAL_CAPACITY = 1024
+RECENT = 512
+"""How many of the newest labels are looked at when a proposal is made."""
 
 
 @dataclass(frozen=True)
@@ -20,6 +25,7 @@ class Entry:
 
     state: (n,) scaled. skill: index. parameters: (P,) in [-1, 1], padded with 0. value: -1, 0 or +1.
     target: what the critic regresses: the value, less the affordance penalty where it applies.
+    keypoints: (K, M, 3) m, robot base frame, of each skill; empty where no setting asks for them.
     """
 
     id: int
@@ -28,16 +34,18 @@ class Entry:
     parameters: Float32
     value: int
     target: float
+    keypoints: Float32 = field(default_factory=lambda: np.zeros(NO_KEYPOINTS, dtype=np.float32))
 
 
 @dataclass(frozen=True)
 class Batch:
-    """B entries as arrays: states (B, n), skills (B,), parameters (B, P), targets (B,)."""
+    """B entries as arrays: states (B, n), skills (B,), parameters (B, P), targets (B,), keypoints (B, K, M, 3) m."""
 
     states: Float32
     skills: NDArray[np.int64]
     parameters: Float32
     targets: Float32
+    keypoints: Float32
 
 
 def shares(counts: Mapping[int, int], size: int) -> dict[int, int]:
@@ -68,7 +76,7 @@ class Replay:
     on the order of arrival, undone labels or a restart.
     """
 
-    def __init__(self, state_size: int, parameter_size: int) -> None:
+    def __init__(self, state_size: int, parameter_size: int, keypoints: tuple[int, ...] = NO_KEYPOINTS) -> None:
         self._size = 0
         self._ids = np.zeros(INITIAL_CAPACITY, dtype=np.int64)
         self._states = np.zeros((INITIAL_CAPACITY, state_size), dtype=np.float32)
@@ -76,6 +84,7 @@ class Replay:
         self._parameters = np.zeros((INITIAL_CAPACITY, parameter_size), dtype=np.float32)
         self._values = np.zeros(INITIAL_CAPACITY, dtype=np.int8)
         self._targets = np.zeros(INITIAL_CAPACITY, dtype=np.float32)
+        self._keypoints = np.zeros((INITIAL_CAPACITY, *keypoints), dtype=np.float32)
         self._by_value: dict[int, NDArray[np.int64]] | None = None
 
     def __len__(self) -> int:
@@ -110,6 +119,7 @@ class Replay:
         self._parameters[at] = entry.parameters
         self._values[at] = entry.value
         self._targets[at] = entry.target
+        self._keypoints[at] = entry.keypoints
         self._size += 1
         self._by_value = None
 
@@ -141,7 +151,22 @@ class Replay:
         drawn = np.concatenate(
             [found[rng.integers(len(found), size=wanted[value])] for value, found in rows.items() if wanted[value]]
         )
-        return Batch(self._states[drawn], self._skills[drawn], self._parameters[drawn], self._targets[drawn])
+        return self._batch(drawn)
+
+    def good(self) -> Batch:
+        """The newest labels that said good, `RECENT` at most."""
+        return self._batch(self._rows()[1][-RECENT:])
+
+    def refused(self, state: Float32, tolerance: float) -> Batch:
+        """Those of the newest `RECENT` labels that said otherwise than good in this state (n,), give or take."""
+        recent = np.arange(max(0, self._size - RECENT), self._size)
+        here = np.abs(self._states[recent] - state).max(axis=1, initial=0.0) <= tolerance
+        return self._batch(recent[here & (self._values[recent] < 1)])
+
+    def _batch(self, rows: NDArray[np.int64]) -> Batch:
+        return Batch(
+            self._states[rows], self._skills[rows], self._parameters[rows], self._targets[rows], self._keypoints[rows]
+        )
 
     def _rows(self) -> dict[int, NDArray[np.int64]]:
         """Row numbers by value."""
@@ -153,15 +178,28 @@ class Replay:
     def _position(self, label_id: int) -> int:
         return int(np.searchsorted(self._ids[: self._size], label_id))
 
-    def _columns(self) -> tuple[NDArray[np.generic], ...]:
-        return (self._ids, self._states, self._skills, self._parameters, self._values, self._targets)
+    def _columns(self) -> tuple[NDArray[Any], ...]:
+        return (
+            self._ids,
+            self._states,
+            self._skills,
+            self._parameters,
+            self._values,
+            self._targets,
+            self._keypoints,
+        )
 
     def _grow(self) -> None:
-        self._ids, self._states, self._skills, self._parameters, self._values, self._targets = (
-            np.concatenate([self._ids, np.zeros_like(self._ids)]),
-            np.concatenate([self._states, np.zeros_like(self._states)]),
-            np.concatenate([self._skills, np.zeros_like(self._skills)]),
-            np.concatenate([self._parameters, np.zeros_like(self._parameters)]),
-            np.concatenate([self._values, np.zeros_like(self._values)]),
-            np.concatenate([self._targets, np.zeros_like(self._targets)]),
-        )
+        (
+            self._ids,
+            self._states,
+            self._skills,
+            self._parameters,
+            self._values,
+            self._targets,
+            self._keypoints,
+        ) = (_doubled(column) for column in self._columns())
+
+
+def _doubled(column: NDArray[Any]) -> NDArray[Any]:
+    return np.concatenate([column, np.zeros_like(column)])

@@ -17,11 +17,14 @@ import torch
 
 from agent import checkpoint, losses
 from agent.algorithm import AgentError, CheckpointError, Label, Problem, Suggestion
+from agent.candidates import Chooser, Search
 from agent.config import SeedSettings
 from agent.encoding import Encoder
+from agent.grounding import grounding
 from agent.networks import Layout, Networks
-from agent.proposing import choose
+from agent.proposing import Choice, choose
 from agent.replay import Replay
+from agent.symmetry import Symmetries
 from robot_adapters.base import Array
 
 
@@ -34,24 +37,38 @@ class Seed:
 
     def __init__(self, problem: Problem, settings: SeedSettings, seed: int) -> None:
         self._settings = settings
-        self._encoder = Encoder(problem)
+        self._encoder = Encoder(problem, keypoints=settings.keypoints)
         initial, proposing, training, drawing = np.random.SeedSequence(seed).spawn(4)
         self._proposing = _generator(proposing)
         self._training = _generator(training)
         self._drawing = np.random.default_rng(drawing)
         layout = Layout(self._encoder.state_size, self._encoder.parameter_counts)
+        self._grounding = grounding(
+            problem.skills,
+            self._encoder.keypoint_counts,
+            grounded=settings.grounded_actor,
+            relative=settings.relative_critic,
+            radius=settings.grounding_radius,
+        )
+        self._symmetries = _symmetries(problem, settings, self._encoder)
         self._networks = Networks(
             layout,
             hidden=[settings.hidden_size] * settings.hidden_layers,
             critics=settings.critics,
             initial_temperature=settings.initial_temperature,
             generator=_generator(initial),
+            grounding=self._grounding,
         )
         # every loss reaches its own weights only, so one optimiser and one backward pass serve them all
         self._optimiser = torch.optim.Adam(self._networks.parameters(), lr=settings.learning_rate, fused=True)
-        self._skill_entropy_target = settings.skill_entropy * math.log(layout.skills)
+        self._skill_entropy_target = settings.skill_entropy * math.log(self._grounding.options)
         self._parameter_entropy_target = settings.parameter_entropy * self._networks.mask.sum(dim=-1)
-        self._replay = Replay(layout.state_size, layout.width)
+        self._replay = Replay(layout.state_size, layout.width, self._encoder.keypoint_shape)
+        self._chooser: Chooser | None = None
+        if settings.candidates:
+            s = settings
+            search = Search(s.candidates, s.candidate_temperature, s.explore_optimism, s.explore_spacing, s.recall)
+            self._chooser = Chooser(self._networks, self._grounding, self._replay, search)
         self._forgotten: set[int] = set()
         self._labels_seen = 0
         self._owed = 0
@@ -75,7 +92,7 @@ class Seed:
         Raises:
             AgentError: the state has the wrong shape or holds a value that is not finite.
         """
-        choice = choose(self._networks, self._encoder.state(state), self._proposing, deterministic=deterministic)
+        choice = self._choose(state, deterministic=deterministic)
         names = self._encoder.skill_names
         return Suggestion(
             call=self._encoder.call(choice.skill, choice.parameters),
@@ -83,6 +100,12 @@ class Seed:
             skill_probabilities={name: float(p) for name, p in zip(names, choice.probabilities, strict=True)},
             policy_version=self.policy_version,
         )
+
+    def _choose(self, state: Array, *, deterministic: bool) -> Choice:
+        scaled, keypoints = self._encoder.state(state), self._encoder.keypoints(state)
+        if self._chooser is not None:
+            return self._chooser.choose(scaled, keypoints, self._proposing, deterministic=deterministic)
+        return choose(self._networks, scaled, keypoints, self._proposing, deterministic=deterministic)
 
     def add(self, labels: Sequence[Label]) -> None:
         """Take labels into the replay and owe their gradient steps. Each is taken once.
@@ -135,19 +158,21 @@ class Seed:
     def _step(self) -> Mapping[str, float]:
         networks = self._networks
         batch = self._replay.sample(self._settings.batch_size, self._drawing)
-        states, skills, parameters, targets = map(
-            torch.from_numpy, (batch.states, batch.skills, batch.parameters, batch.targets)
+        if self._symmetries is not None:
+            batch = self._symmetries.applied(batch, self._drawing)
+        states, skills, parameters, targets, keypoints = map(
+            torch.from_numpy, (batch.states, batch.skills, batch.parameters, batch.targets, batch.keypoints)
         )
 
         # eq. 1
-        critic_loss = losses.critic_loss(networks.predict(states, skills, parameters), targets)
+        critic_loss = losses.critic_loss(networks.predict(states, skills, parameters, keypoints), targets)
 
         # one x_a ~ pi_psi(.|s, a) for every skill serves eq. 2 and eq. 3
         log_pi = networks.skill_log_probabilities(states)
         mean, log_std = networks.parameter_distributions(states)
         noise = torch.randn(mean.shape, generator=self._training)
         imagined, log_pi_x = losses.sample_parameters(mean, log_std, networks.mask, noise)
-        predicted = networks.predict_every_skill(states, imagined)
+        predicted = networks.predict_every_skill(states, imagined, keypoints)
         skill_temperature = networks.log_skill_temperature.exp()
         parameter_temperature = networks.log_parameter_temperature.exp()
         skill_loss = losses.skill_actor_loss(log_pi, predicted, skill_temperature)
@@ -262,6 +287,7 @@ class Seed:
             **self._encoder.fingerprint(),
             "hidden": [settings.hidden_size] * settings.hidden_layers,
             "critics": settings.critics,
+            **_grounded_fingerprint(settings, self._encoder),
         }
 
 
@@ -278,6 +304,30 @@ METRICS = (
 
 ADAM_STATE = ("step", "exp_avg", "exp_avg_sq")
 """What torch's Adam keeps of each parameter."""
+
+
+def _symmetries(problem: Problem, settings: SeedSettings, encoder: Encoder) -> Symmetries | None:
+    """None where nothing is augmented, and where the state names no objects: what matters may then stand still."""
+    asked = settings.augment_translation > 0 or settings.augment_flip or settings.augment_rotation
+    if not asked or not any(encoder.keypoint_counts):
+        return None
+    return Symmetries(
+        problem,
+        translation=settings.augment_translation,
+        flip=settings.augment_flip,
+        rotation=settings.augment_rotation,
+    )
+
+
+def _grounded_fingerprint(settings: SeedSettings, encoder: Encoder) -> Mapping[str, Any]:
+    """What key points change of the networks; nothing where they see none, so that older checkpoints still fit."""
+    if settings.keypoints == "none":
+        return {}
+    return {
+        "keypoints": list(encoder.keypoint_counts),
+        "relative_critic": settings.relative_critic,
+        "grounded_actor": [settings.grounded_actor, settings.grounding_radius],
+    }
 
 
 def _generator(seed: np.random.SeedSequence) -> torch.Generator:

@@ -33,6 +33,16 @@ def state_bounds(fields: tuple[StateField, ...]) -> tuple[Array, Array]:
     return np.array(low, dtype=np.float64), np.array(high, dtype=np.float64)
 
 
+def position_fields(fields: tuple[StateField, ...]) -> tuple[int, ...]:
+    """Where in the state vector an x stands with its y right after: fields of two or three numbers in m."""
+    starts, at = [], 0
+    for field in fields:
+        if field.unit == "m" and field.size in {2, 3}:
+            starts.append(at)
+        at += field.size
+    return tuple(starts)
+
+
 Vector = tuple[float, float, float]
 """x, y, z in m: base frame, or from an object's origin."""
 

@@ -21,7 +21,7 @@ import numpy as np
 from agent.algorithm import AgentError, Algorithm, AlgorithmFactory, Label, Problem
 from robot_adapters import registry
 from robot_adapters.base import SkillCall
-from robot_adapters.tasks.base import Task, state_bounds
+from robot_adapters.tasks.base import Task, position_fields, state_bounds
 from server.workers.channel import Pipes, Refusal, answer, open_pipes
 
 log = logging.getLogger(__name__)
@@ -202,7 +202,14 @@ def _label(task: Task, stored: Mapping[str, Any]) -> Label:
 
 def _problem(task: Task) -> Problem:
     low, high = state_bounds(task.state_fields)
-    return Problem(task.name, low, high, task.skills)
+    return Problem(
+        task.name,
+        low,
+        high,
+        task.skills,
+        keypoints=task.keypoints,
+        position_fields=position_fields(task.state_fields),
+    )
 
 
 def _factory(name: str) -> AlgorithmFactory:
