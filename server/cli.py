@@ -68,7 +68,7 @@ def train(  # noqa: PLR0917  Typer makes an option of each
     task: Annotated[str, typer.Option(help="a task, e.g. stacking")] = "stacking",
     adapter: Annotated[str, typer.Option(help="an adapter, e.g. robosuite or kinematic")] = "robosuite",
     algorithm: Annotated[str, typer.Option(help="an algorithm")] = "seed",
-    preset: Annotated[str, typer.Option(help="a preset of the algorithm")] = "paper_sim",
+    preset: Annotated[str, typer.Option(help="a preset of the algorithm")] = "recommended",
     teacher: Annotated[str, typer.Option(help="the synthetic trainer that judges")] = "synthetic",
     feedback: Annotated[int, typer.Option(min=1, help="feedback to train with")] = 300,
     seed: Annotated[int, typer.Option(min=0, max=2**31 - 1, help="seed of robot and learner")] = 0,

@@ -22,9 +22,9 @@ from server.stream import Rooms
 
 log = logging.getLogger("seed")
 
-# real time, so that a person can follow the arm and has time to stop it
+# real time, so that a person can follow the arm and has time to stop it; few clicks, so that they see it learn
 FIRST_EXPERIMENT = ExperimentCreate(
-    name="Stacking", task="stacking", adapter="robosuite", adapter_settings={"speed": 1.0}, preset="paper_sim"
+    name="Stacking", task="stacking", adapter="robosuite", adapter_settings={"speed": 1.0}, preset="recommended"
 )
 
 
