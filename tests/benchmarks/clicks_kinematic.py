@@ -23,6 +23,8 @@ from robot_adapters.tasks.base import Task, position_fields, state_bounds
 from tests.benchmarks.result import Result
 
 REACHED = 0.9
+FIRST_SEED = 10
+"""The preset's constants were chosen on seeds 0 to 7; these it has not seen."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +71,7 @@ def run() -> Result:
 def _told(row: Row) -> tuple[float, str]:
     """Mean feedback of a row's seeds, and the line that tells it."""
     start = time.perf_counter()
-    needed = [_feedback_needed(row, seed) for seed in range(row.seeds)]
+    needed = [_feedback_needed(row, seed) for seed in range(FIRST_SEED, FIRST_SEED + row.seeds)]
     counted = [row.budget if n is None else n for n in needed]
     mean = statistics.fmean(counted)
     sem = statistics.stdev(counted) / len(counted) ** 0.5 if len(counted) > 1 else 0.0
