@@ -66,7 +66,7 @@ async def test_the_catalogue_lists_what_an_experiment_may_name(tmp_path: Path) -
         assert sum(f["size"] for f in tasks["reaching"]["state"]) == 4
         assert {"reaching", "stacking"} <= set(adapters["kinematic"]["tasks"])
         assert adapters["kinematic"]["simulated"] is True
-        assert {"paper_sim", "paper_real"} <= set(algorithms["seed"]["presets"])
+        assert {"recommended", "paper_sim", "paper_real"} <= set(algorithms["seed"]["presets"])
         described = algorithms["seed"]["settings_schema"]["properties"]
         assert all(field["description"] for field in described.values())
         teachers = {t["name"]: t for t in (await live.http.get("/api/v1/teachers")).json()}
