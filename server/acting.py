@@ -16,17 +16,9 @@ from robot_adapters.base import InvalidCall, SafetyViolation, SkillCall, check_c
 from robot_adapters.tasks.base import Task
 from server.crew import Crew
 from server.crew_values import Done, Seen
+from server.messages import ExecutionEnded, ExecutionStarted, ProposalClosed, StreamEvent
 from server.owed import Owed
-from server.schemas import (
-    Execution,
-    ExecutionEnded,
-    ExecutionOutcome,
-    ExecutionStarted,
-    Experiment,
-    Proposal,
-    ProposalClosed,
-    StreamEvent,
-)
+from server.schemas import Execution, ExecutionOutcome, Experiment, Proposal
 from server.store import Conflict, Store, StoreError
 from server.store_values import NewProposal, NewView, Purpose
 from server.worker import CommandFailed, WorkerDied

@@ -17,7 +17,7 @@ from server import errors
 from server.openapi import describe
 from server.origin import Guard
 from server.routes import catalogue, experiments, feedback, proposals, records, stream
-from server.schemas import Health, Readiness
+from server.schemas_problems import Health, Readiness
 from server.service import Service, create_first, opened
 from server.settings import Settings
 

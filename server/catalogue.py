@@ -16,17 +16,9 @@ from robot_adapters.base import AdapterFactory
 from robot_adapters.tasks.base import Task
 from robot_adapters.tasks.layout import LayoutSettings
 from server.errors import invalid
-from server.schemas import (
-    AdapterInfo,
-    Aggregation,
-    AlgorithmInfo,
-    ExperimentCreate,
-    FieldProblem,
-    Parameter,
-    Skill,
-    TaskInfo,
-    TeacherInfo,
-)
+from server.schemas import Aggregation, ExperimentCreate
+from server.schemas_catalogue import AdapterInfo, AlgorithmInfo, Parameter, Skill, TaskInfo, TeacherInfo
+from server.schemas_problems import FieldProblem
 from server.teacher import TeacherFactory, teachers
 
 T = TypeVar("T")

@@ -15,18 +15,15 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from robot_adapters import registry
 from server.errors import ServiceError
 from server.hub import Act
-from server.schemas import (
-    Evaluation,
+from server.messages import (
     EvaluationChanged,
-    EvaluationCreate,
     ExperimentChanged,
-    ExperimentCreate,
     FeedbackStored,
     FrameHeader,
-    Lifecycle,
     StreamEvent,
     WorkerChanged,
 )
+from server.schemas import Evaluation, EvaluationCreate, ExperimentCreate, Lifecycle
 from server.service import Service, opened
 from server.settings import Settings
 from server.store_errors import Conflict

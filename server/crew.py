@@ -16,7 +16,8 @@ from typing import Any, Literal
 
 from robot_adapters.base import SkillCall
 from server.crew_values import Done, Idea, Picture, Saved, Seen
-from server.schemas import Experiment, FrameHeader, Overlay, WorkerChanged
+from server.messages import FrameHeader, WorkerChanged
+from server.schemas import Experiment, Overlay
 from server.settings import Settings
 from server.store import Store
 from server.store_values import StoredLabel

@@ -15,20 +15,8 @@ from datetime import UTC, datetime
 from server.acting import Publish
 from server.crew import Crew
 from server.ledger import Ledger
-from server.schemas import (
-    CloseReason,
-    Experiment,
-    Feedback,
-    FeedbackCreate,
-    FeedbackStatus,
-    FeedbackStored,
-    FeedbackUndone,
-    Mode,
-    Proposal,
-    ProposalClosed,
-    ProposalOpened,
-    Verdict,
-)
+from server.messages import FeedbackStored, FeedbackUndone, ProposalClosed, ProposalOpened
+from server.schemas import CloseReason, Experiment, Feedback, FeedbackCreate, FeedbackStatus, Mode, Proposal, Verdict
 from server.store import Store, StoreError
 from server.store_values import NewProposal, StoredLabel, Submission
 from server.worker import WorkerDied

@@ -17,7 +17,8 @@ from starlette.exceptions import HTTPException
 
 from agent.algorithm import AgentError
 from robot_adapters.base import AdapterError, Unavailable
-from server.schemas import Feedback, FieldProblem, Problem
+from server.schemas import Feedback
+from server.schemas_problems import FieldProblem, Problem
 from server.store_errors import BadCursor, Conflict, Full, NewerDatabase, NotFound, ReadOnly, StoreError
 from server.worker import CommandFailed, WorkerDied, WorkerError, WorkerTimeout
 

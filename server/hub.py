@@ -9,21 +9,18 @@ from datetime import UTC, datetime
 from typing import Literal
 
 from server.lifecycle import MOVING
+from server.messages import EvaluationChanged, ExecutionEnded, ExperimentChanged, Snapshot
 from server.publisher import Publisher
 from server.runner import Runner
 from server.schemas import (
     Evaluation,
-    EvaluationChanged,
     EvaluationCreate,
-    ExecutionEnded,
     Experiment,
-    ExperimentChanged,
     ExperimentPage,
     ExperimentUpdate,
     Feedback,
     FeedbackCreate,
     Lifecycle,
-    Snapshot,
 )
 from server.settings import Settings
 from server.store import Conflict, NotFound, Receipt, Store, StoreError

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from server.crew import Crew
-from server.schemas import Counters, Experiment, MetricsAdded, Proposal, StreamEvent
+from server.messages import MetricsAdded, StreamEvent
+from server.schemas import Counters, Experiment, Proposal
 from server.store import Store, StoreError
 from server.worker import WorkerError
 

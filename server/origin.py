@@ -13,7 +13,7 @@ from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from server.errors import ServiceError, problem, response
-from server.schemas import Problem
+from server.schemas_problems import Problem
 from server.settings import Settings
 
 SAFE_METHODS = {"GET", "HEAD", "OPTIONS"}

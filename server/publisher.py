@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from server.schemas import FrameHeader, StreamEvent
+from server.messages import FrameHeader, StreamEvent
 
 
 class Publisher(Protocol):

@@ -11,7 +11,8 @@ import asyncio
 from server.acting import Acting, Publish
 from server.crew import Crew
 from server.crew_values import Seen
-from server.schemas import Evaluation, EvaluationChanged
+from server.messages import EvaluationChanged
+from server.schemas import Evaluation
 from server.store import Store
 from server.store_values import EpisodeOutcome
 

@@ -24,18 +24,10 @@ from server.desk import Desk
 from server.judging import Judge
 from server.ledger import Ledger
 from server.lifecycle import Verb
+from server.messages import StreamEvent
 from server.publisher import Publisher
 from server.rollouts import roll_out
-from server.schemas import (
-    CloseReason,
-    Evaluation,
-    Experiment,
-    Lifecycle,
-    Phase,
-    Proposal,
-    StreamEvent,
-    Verdict,
-)
+from server.schemas import CloseReason, Evaluation, Experiment, Lifecycle, Phase, Proposal, Verdict
 from server.seeds import episode_seed
 from server.settings import Settings
 from server.standing import Standing

@@ -14,7 +14,8 @@ from server import catalogue
 from server.errors import ServiceError
 from server.hub import Hub
 from server.publisher import Publisher
-from server.schemas import Experiment, ExperimentCreate, Lifecycle, Readiness
+from server.schemas import Experiment, ExperimentCreate, Lifecycle
+from server.schemas_problems import Readiness
 from server.settings import Settings
 from server.store import Receipt, Store
 from server.store_errors import StoreError

@@ -6,8 +6,9 @@ import contextlib
 from collections.abc import Callable
 
 from server import lifecycle
+from server.messages import ExperimentChanged, StreamEvent
 from server.owed import Owed
-from server.schemas import Experiment, ExperimentChanged, Lifecycle, Phase, StreamEvent
+from server.schemas import Experiment, Lifecycle, Phase
 from server.store import Conflict, Store, StoreError
 
 

@@ -11,6 +11,7 @@ from sqlalchemy.orm import Session
 from server import models, schemas, store_experiments, store_pages, store_proposals, store_records
 from server import store_wire as wire
 from server.database import Database
+from server.schemas_catalogue import TrainerPage
 from server.store_errors import NotFound
 from server.store_values import StoredLabel, StoredResponse
 
@@ -142,11 +143,11 @@ class Reads:
         items, after = await self._page(query, row.id, wire.checkpoint, cursor, limit, of=experiment_id)
         return schemas.CheckpointPage(items=items, next_cursor=after)
 
-    async def trainers(self, cursor: str | None = None, limit: int = 50) -> schemas.TrainerPage:
+    async def trainers(self, cursor: str | None = None, limit: int = 50) -> TrainerPage:
         """By id."""
         row = models.TrainerRow
         items, after = await self._page(select(row), row.id, wire.trainer, cursor, limit, newest_first=False)
-        return schemas.TrainerPage(items=items, next_cursor=after)
+        return TrainerPage(items=items, next_cursor=after)
 
     async def events(self, experiment_id: int, cursor: str | None = None, limit: int = 50) -> schemas.EventPage:
         """The journal, oldest first."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from server import models, schemas
+from server.schemas_catalogue import Trainer
 
 
 def experiment(row: models.ExperimentRow) -> schemas.Experiment:
@@ -132,11 +133,9 @@ def checkpoint(row: models.CheckpointRow) -> schemas.Checkpoint:
     )
 
 
-def trainer(row: models.TrainerRow) -> schemas.Trainer:
+def trainer(row: models.TrainerRow) -> Trainer:
     """Someone who judges."""
-    return schemas.Trainer.model_validate(
-        {"id": row.id, "name": row.name, "kind": row.kind, "created_at": row.created_at}
-    )
+    return Trainer.model_validate({"id": row.id, "name": row.name, "kind": row.kind, "created_at": row.created_at})
 
 
 def event(row: models.EventRow) -> schemas.StoredEvent:

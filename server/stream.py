@@ -20,7 +20,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from server.errors import problem, problem_of
 from server.hub import Hub
-from server.schemas import (
+from server.messages import (
     Acknowledged,
     ClientFeedback,
     ClientFrameAck,
@@ -28,13 +28,12 @@ from server.schemas import (
     ClientMessage,
     ClientPing,
     ClientUndo,
-    Feedback,
-    FeedbackCreate,
     FrameHeader,
     Pong,
     Refused,
     StreamEvent,
 )
+from server.schemas import Feedback, FeedbackCreate
 from server.store import Store
 from server.store_errors import NotFound
 

@@ -15,9 +15,6 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 CODE = (".py", ".ts", ".tsx", ".mjs", ".css", ".sh")
 GENERATED = {"web/src/api.ts"}
-ONE_FILE_BY_DESIGN = {"server/schemas.py"}
-"""The wire is one tagged union, and is read as one."""
-
 LONGEST = 400
 VAGUE_NAMES = {"utils", "util", "helpers", "helper", "common", "misc", "manager", "managers"}
 SIMULATOR = {"mujoco", "robosuite"}
@@ -131,11 +128,7 @@ def test_every_python_file_says_what_it_is_for() -> None:
 
 
 def test_no_file_is_longer_than_it_should_be() -> None:
-    lengths = {
-        name: text.count("\n")
-        for name, text in texts()
-        if name.endswith(CODE) and name not in GENERATED | ONE_FILE_BY_DESIGN
-    }
+    lengths = {name: text.count("\n") for name, text in texts() if name.endswith(CODE) and name not in GENERATED}
     assert not {name: lines for name, lines in lengths.items() if lines > LONGEST}
 
 

@@ -11,7 +11,7 @@ from robot_adapters import registry
 from server import catalogue
 from server.errors import ServiceError
 from server.routes.dependencies import errors
-from server.schemas import AdapterInfo, AlgorithmInfo, TaskInfo, TeacherInfo
+from server.schemas_catalogue import AdapterInfo, AlgorithmInfo, TaskInfo, TeacherInfo
 from server.teacher import teachers
 
 router = APIRouter(tags=["catalogue"])

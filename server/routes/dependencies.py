@@ -7,7 +7,7 @@ from typing import Annotated, Any
 from fastapi import Depends, Path, Query, Request
 
 from server.errors import MEDIA_TYPE
-from server.schemas import Problem
+from server.schemas_problems import Problem
 from server.service import Service
 
 LARGEST_ID = 2**63 - 1

@@ -8,14 +8,7 @@ from fastapi import APIRouter, Body, Request, Response
 
 from server.idempotency import IdempotencyKey, once
 from server.routes.dependencies import Cursor, Id, Limit, Running, errors
-from server.schemas import (
-    Evaluation,
-    EvaluationCreate,
-    Experiment,
-    ExperimentCreate,
-    ExperimentPage,
-    ExperimentUpdate,
-)
+from server.schemas import Evaluation, EvaluationCreate, Experiment, ExperimentCreate, ExperimentPage, ExperimentUpdate
 
 router = APIRouter(prefix="/experiments", tags=["experiments"])
 

@@ -5,14 +5,8 @@ from __future__ import annotations
 from fastapi import APIRouter
 
 from server.routes.dependencies import Cursor, Id, Limit, Running, errors
-from server.schemas import (
-    CheckpointPage,
-    EvaluationPage,
-    EventPage,
-    ExecutionPage,
-    MetricPage,
-    TrainerPage,
-)
+from server.schemas import CheckpointPage, EvaluationPage, EventPage, ExecutionPage, MetricPage
+from server.schemas_catalogue import TrainerPage
 
 router = APIRouter(tags=["records"])
 LISTED = errors(404, 422)

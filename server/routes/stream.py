@@ -7,8 +7,8 @@ from typing import Annotated, get_args
 from fastapi import APIRouter, Body, FastAPI, WebSocket, WebSocketDisconnect
 
 from server.errors import problem, problem_of, response
+from server.messages import ClientMessage, FrameHeader, StreamEvent
 from server.routes.dependencies import LARGEST_ID
-from server.schemas import ClientMessage, FrameHeader, StreamEvent
 from server.service import Service
 from server.store_errors import StoreError
 from server.stream import Connection

@@ -11,7 +11,8 @@ import sys
 import uuid
 from pathlib import Path
 
-from server.schemas import ExecutionStarted, FeedbackCreate, FrameHeader, ProposalOpened, StreamEvent
+from server.messages import ExecutionStarted, FrameHeader, ProposalOpened, StreamEvent
+from server.schemas import FeedbackCreate
 from tests.server.stage import stage
 
 

@@ -12,17 +12,8 @@ from typing import Any, TypeVar
 
 from server import catalogue
 from server.hub import Hub
-from server.schemas import (
-    Experiment,
-    ExperimentCreate,
-    Feedback,
-    FeedbackCreate,
-    FrameHeader,
-    Proposal,
-    ProposalOpened,
-    StreamEvent,
-    WorkerChanged,
-)
+from server.messages import FrameHeader, ProposalOpened, StreamEvent, WorkerChanged
+from server.schemas import Experiment, ExperimentCreate, Feedback, FeedbackCreate, Proposal
 from server.settings import Settings
 from server.store import Store
 

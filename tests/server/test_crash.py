@@ -11,20 +11,22 @@ import sys
 from pathlib import Path
 
 from server.hub import Act
-from server.schemas import (
-    CloseReason,
+from server.messages import (
     EvaluationChanged,
-    EvaluationCreate,
     ExecutionEnded,
-    ExecutionOutcome,
     ExecutionStarted,
-    ExperimentUpdate,
-    FeedbackStatus,
     FeedbackStored,
-    Lifecycle,
-    Mode,
     ProposalClosed,
     ProposalOpened,
+)
+from server.schemas import (
+    CloseReason,
+    EvaluationCreate,
+    ExecutionOutcome,
+    ExperimentUpdate,
+    FeedbackStatus,
+    Lifecycle,
+    Mode,
     Verdict,
 )
 from server.store import Conflict, Store

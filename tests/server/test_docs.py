@@ -13,7 +13,7 @@ import pytest
 
 import server.errors
 from server.app import create_app
-from server.schemas import ClientMessage, StreamEvent
+from server.messages import ClientMessage, StreamEvent
 from server.settings import Settings
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -13,7 +13,7 @@ import pytest
 from sqlalchemy import text
 
 from server.errors import MEDIA_TYPE, problem_of
-from server.schemas import Problem
+from server.schemas_problems import Problem
 from tests.server.serving import EXPERIMENT, Serving, serving
 
 MEGABYTE = 1_000_000

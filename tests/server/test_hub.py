@@ -7,18 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from server.schemas import (
-    EvaluationCreate,
-    ExecutionEnded,
-    ExecutionOutcome,
-    ExecutionStarted,
-    ExperimentChanged,
-    FeedbackStatus,
-    FeedbackStored,
-    Lifecycle,
-    Phase,
-    ProposalOpened,
-)
+from server.messages import ExecutionEnded, ExecutionStarted, ExperimentChanged, FeedbackStored, ProposalOpened
+from server.schemas import EvaluationCreate, ExecutionOutcome, FeedbackStatus, Lifecycle, Phase
 from server.store import Conflict, NotFound
 from tests.server.stage import stage
 

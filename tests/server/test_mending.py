@@ -12,7 +12,8 @@ import pytest
 from sqlalchemy import text
 
 from robot_adapters.base import AdapterError
-from server.schemas import EvaluationCreate, FeedbackStored, Lifecycle, ProposalOpened, WorkerChanged
+from server.messages import FeedbackStored, ProposalOpened, WorkerChanged
+from server.schemas import EvaluationCreate, Lifecycle
 from server.teacher import UnknownTeacher
 from tests.live import PLUGINS
 from tests.server.stage import Stage, stage

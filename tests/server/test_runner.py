@@ -7,22 +7,24 @@ from typing import Any
 
 import pytest
 
+from server.messages import (
+    ExecutionEnded,
+    ExecutionStarted,
+    FeedbackUndone,
+    MetricsAdded,
+    ProposalClosed,
+    ProposalOpened,
+)
 from server.schemas import (
     CloseReason,
     EvaluationCreate,
-    ExecutionEnded,
     ExecutionOutcome,
-    ExecutionStarted,
     ExperimentUpdate,
     FeedbackStatus,
-    FeedbackUndone,
     Lifecycle,
-    MetricsAdded,
     Mode,
     Phase,
     Proposal,
-    ProposalClosed,
-    ProposalOpened,
     Verdict,
 )
 from server.seeds import episode_seed

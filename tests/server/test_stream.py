@@ -15,7 +15,9 @@ from websockets.asyncio.client import ClientConnection
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from server.errors import MEDIA_TYPE
-from server.schemas import FrameHeader, MetricPoint, MetricsAdded, Pong, Problem
+from server.messages import FrameHeader, MetricsAdded, Pong
+from server.schemas import MetricPoint
+from server.schemas_problems import Problem
 from server.stream import RUBBISH_LIMIT, Outbox, Rooms
 from tests.server.serving import Serving, event, serving
 

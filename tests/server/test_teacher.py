@@ -12,7 +12,8 @@ import pytest
 from robot_adapters import registry
 from robot_adapters.base import Array, SkillCall
 from robot_adapters.tasks.base import Task
-from server.schemas import CloseReason, Lifecycle, ProposalClosed
+from server.messages import ProposalClosed
+from server.schemas import CloseReason, Lifecycle
 from server.seeds import judging
 from server.teacher import Case, Judgement, Oracle, QFunction, SyntheticSettings, Teacher, UnknownTeacher, teacher
 from tests.server.stage import Stage, stage

@@ -9,14 +9,8 @@ from typing import Any
 import pytest
 
 from robot_adapters import registry
-from server.schemas import (
-    ExecutionEnded,
-    ExecutionOutcome,
-    ExperimentChanged,
-    Lifecycle,
-    Phase,
-    ProposalClosed,
-)
+from server.messages import ExecutionEnded, ExperimentChanged, ProposalClosed
+from server.schemas import ExecutionOutcome, Lifecycle, Phase
 from server.store import Conflict, Full, Store
 from tests.live import PLUGINS
 from tests.server.serving import event, serving

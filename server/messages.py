@@ -1,0 +1,208 @@
+"""Every message of the stream: events (one tagged union), the header of a frame, and what a client may send."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from server.schemas import (
+    ClickId,
+    Evaluation,
+    Execution,
+    Experiment,
+    Feedback,
+    MetricPoint,
+    Proposal,
+    RowId,
+    TrainerName,
+    Value,
+    Wire,
+)
+from server.schemas_problems import Problem
+
+# --- stream: server to client -------------------------------------------------------------------------------------
+
+
+class Snapshot(Wire):
+    """Everything a page needs to draw itself; sent first on every connection, and again after a resync."""
+
+    type: Literal["snapshot"] = "snapshot"
+    experiment: Experiment
+    proposal: Annotated[Proposal | None, Field(description="the open proposal, if any")] = None
+    execution: Annotated[Execution | None, Field(description="the running execution, if any")] = None
+    undoable: Annotated[Feedback | None, Field(description="the newest feedback, while it can be undone")] = None
+    server_time: datetime
+    boot_id: Annotated[str, Field(description="changes when the server restarts")]
+
+
+class ExperimentChanged(Wire):
+    """Lifecycle, phase, mode, halt or counters changed."""
+
+    type: Literal["experiment_changed"] = "experiment_changed"
+    experiment: Experiment
+
+
+class ProposalOpened(Wire):
+    """A proposal waits for feedback; it is already stored."""
+
+    type: Literal["proposal_opened"] = "proposal_opened"
+    proposal: Proposal
+
+
+class ProposalClosed(Wire):
+    """A proposal is closed; `proposal.verdict`, `.close_reason` and `.gate` say how."""
+
+    type: Literal["proposal_closed"] = "proposal_closed"
+    proposal: Proposal
+
+
+class FeedbackStored(Wire):
+    """A click is committed. `undoable` says whether it can still be undone."""
+
+    type: Literal["feedback_stored"] = "feedback_stored"
+    feedback: Feedback
+    undoable: bool
+
+
+class FeedbackUndone(Wire):
+    """A click was taken back; its proposal is open again (a `proposal_opened` follows)."""
+
+    type: Literal["feedback_undone"] = "feedback_undone"
+    feedback: Feedback
+
+
+class ExecutionStarted(Wire):
+    """The robot moves; frames follow."""
+
+    type: Literal["execution_started"] = "execution_started"
+    execution: Execution
+
+
+class ExecutionEnded(Wire):
+    """The robot stands still again."""
+
+    type: Literal["execution_ended"] = "execution_ended"
+    execution: Execution
+    violations: list[str] = []  # noqa: RUF012 - pydantic copies it
+
+
+class MetricsAdded(Wire):
+    """A new metric point."""
+
+    type: Literal["metrics_added"] = "metrics_added"
+    point: MetricPoint
+
+
+class WorkerChanged(Wire):
+    """A worker process started, died or was restarted."""
+
+    type: Literal["worker_changed"] = "worker_changed"
+    worker: Literal["robot", "learner"]
+    status: Literal["starting", "ready", "died", "restarted"]
+    detail: str
+
+
+class EvaluationChanged(Wire):
+    """An evaluation started, went on or ended."""
+
+    type: Literal["evaluation_changed"] = "evaluation_changed"
+    evaluation: Evaluation
+    done: int
+
+
+class Acknowledged(Wire):
+    """Answer to a client's message; for feedback it comes after the commit."""
+
+    type: Literal["acknowledged"] = "acknowledged"
+    request_id: Annotated[str, Field(description="the click id, or the request's own id")]
+    feedback: Feedback | None = None
+
+
+class Refused(Wire):
+    """Answer to a client's message that could not be taken; nothing changed."""
+
+    type: Literal["refused"] = "refused"
+    request_id: str | None
+    problem: Problem
+
+
+class Pong(Wire):
+    """Answer to a ping."""
+
+    type: Literal["pong"] = "pong"
+
+
+StreamEvent = Annotated[
+    Snapshot
+    | ExperimentChanged
+    | ProposalOpened
+    | ProposalClosed
+    | FeedbackStored
+    | FeedbackUndone
+    | ExecutionStarted
+    | ExecutionEnded
+    | MetricsAdded
+    | WorkerChanged
+    | EvaluationChanged
+    | Acknowledged
+    | Refused
+    | Pong,
+    Field(discriminator="type"),
+]
+
+
+class FrameHeader(Wire):
+    """JSON header of a binary frame: `[u32 big-endian header length][this][JPEG]`."""
+
+    camera: str
+    width: int
+    height: int
+    taken_at: float
+    execution_id: int | None = None
+
+
+# --- stream: client to server -------------------------------------------------------------------------------------
+
+
+class ClientFeedback(Wire):
+    """One click over the stream."""
+
+    type: Literal["feedback"]
+    click_id: ClickId
+    proposal_id: RowId
+    value: Value
+    trainer: TrainerName = "local"
+
+
+class ClientUndo(Wire):
+    """Take back a feedback, while nothing has moved."""
+
+    type: Literal["undo"]
+    request_id: ClickId
+    feedback_id: RowId
+
+
+class ClientHalt(Wire):
+    """Emergency stop."""
+
+    type: Literal["halt"]
+    request_id: ClickId
+
+
+class ClientFrameAck(Wire):
+    """The last frame is drawn: the next one may come."""
+
+    type: Literal["frame_ack"]
+
+
+class ClientPing(Wire):
+    """Are you there?"""
+
+    type: Literal["ping"]
+
+
+ClientMessage = Annotated[
+    ClientFeedback | ClientUndo | ClientHalt | ClientFrameAck | ClientPing, Field(discriminator="type")
+]
