@@ -223,7 +223,7 @@ def _factory(name: str) -> AlgorithmFactory:
 def main() -> None:
     """Entry point of the process."""
     # the server must stay quick on a machine with few cores; learning can wait a little
-    os.nice(5)
+    os.nice(15)
     serve(open_pipes("learner"))
     os._exit(0)
 
