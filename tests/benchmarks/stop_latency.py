@@ -80,8 +80,8 @@ async def _stops(
         proposal = await _waiting(client, path)
         click = {"click_id": f"stop-{proposal['id']:06d}", "value": 1}
         await _post(client, f"/api/v1/proposals/{proposal['id']}/feedback", click)
-        # a pick or a place takes about 70 set-points; stop in their midst
-        await asyncio.sleep(chance.uniform(0.02, 2.0 if speed else 0.25))
+        # a skill takes about 44 set-points, at full speed .03 s and its pictures; stop in their midst
+        await asyncio.sleep(chance.uniform(0.02, 1.5) if speed else chance.uniform(0.0, 0.05))
         asked = time.monotonic()
         await _post(client, f"{path}/halt")
         done = await motions.get()
