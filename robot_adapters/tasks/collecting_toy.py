@@ -143,24 +143,14 @@ class CollectingToy(Boxed):
         StateField("toy_in_drawer", 1, "", "1 while the toy lies in the drawer, else 0", (0.0,), (1.0,)),
     )
     skills = (
-        SkillSpec(
-            "pick",
-            table.position("where the fingers close", x=PICK_X, y=PICK_Y, z=PICK_Z),
-            "Take what is at a position, and lift it.",
-            yaw=0.0,
-        ),
+        table.picking(x=PICK_X, y=PICK_Y, z=PICK_Z, yaw=0.0),
         SkillSpec(
             "push",
             table.push("where the push starts", x=PUSH_X, y=PUSH_Y, z=PUSH_Z, delta=PUSH_DELTA),
             "Come down at a position with closed fingers and move straight on.",
             yaw=0.0,
         ),
-        SkillSpec(
-            "place",
-            table.position("where the fingers open", x=PLACE_X, y=PLACE_Y, z=PLACE_Z),
-            "Bring what is held to a position; let go.",
-            yaw=0.0,
-        ),
+        table.placing(x=PLACE_X, y=PLACE_Y, z=PLACE_Z, yaw=0.0),
     )
     subgoals = (
         Subgoal("pick up the toy", "pick up the pink toy"),

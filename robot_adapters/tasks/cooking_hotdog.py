@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from pydantic import Field
 
-from robot_adapters.base import Array, SafetyViolation, Scene, SkillSpec
+from robot_adapters.base import Array, SafetyViolation, Scene
 from robot_adapters.tasks import table
 from robot_adapters.tasks.base import Grip, ObjectSpec, Part, Seat, StateField, Subgoal, Vector
 from robot_adapters.tasks.boxes import Box, Boxed
@@ -147,18 +147,8 @@ class CookingHotdog(Boxed):
         StateField("sausage_in_bun", 1, "", "1 while the sausage lies in the bun, else 0", (0.0,), (1.0,)),
     )
     skills = (
-        SkillSpec(
-            "pick",
-            table.position("where the fingers close", x=PICK_X, y=PICK_Y, z=PICK_Z),
-            "Take what is at a position, and lift it.",
-            yaw=0.0,
-        ),
-        SkillSpec(
-            "place",
-            table.position("where the fingers open", x=PLACE_X, y=PLACE_Y, z=PLACE_Z),
-            "Bring what is held to a position; let go.",
-            yaw=0.0,
-        ),
+        table.picking(x=PICK_X, y=PICK_Y, z=PICK_Z, yaw=0.0),
+        table.placing(x=PLACE_X, y=PLACE_Y, z=PLACE_Z, yaw=0.0),
     )
     subgoals = (
         Subgoal("pick up the skillet", "pick up the skillet by its blue handle"),

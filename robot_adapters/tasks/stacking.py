@@ -7,7 +7,7 @@ import math
 import numpy as np
 from pydantic import Field, model_validator
 
-from robot_adapters.base import Array, SafetyViolation, Scene, SkillSpec
+from robot_adapters.base import Array, SafetyViolation, Scene
 from robot_adapters.tasks import table
 from robot_adapters.tasks.base import ObjectSpec, StateField, Subgoal
 from robot_adapters.tasks.boxes import Box, Boxed
@@ -72,16 +72,8 @@ class Stacking(Boxed):
         StateField(f"{B}_position", 3, "m", "centre of the large green block, base frame", _FIELD_LOW, _FIELD_HIGH),
     )
     skills = (
-        SkillSpec(
-            "pick",
-            table.position("where the fingers close", x=X, y=Y, z=PICK_Z),
-            "Take what is at a position, and lift it.",
-        ),
-        SkillSpec(
-            "place",
-            table.position("where the fingers open", x=X, y=Y, z=PLACE_Z),
-            "Bring what is held to a position; let go.",
-        ),
+        table.picking(x=X, y=Y, z=PICK_Z),
+        table.placing(x=X, y=Y, z=PLACE_Z),
     )
     subgoals = (
         Subgoal("pick", "pick up the red block"),

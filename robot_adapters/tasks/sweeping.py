@@ -113,12 +113,7 @@ class Sweeping(Boxed):
         StateField("broom_grasped", 1, "", "1 while the broom is in the hand, else 0", (0.0,), (1.0,)),
     )
     skills = (
-        SkillSpec(
-            "pick",
-            table.position("where the fingers close", x=PICK_X, y=PICK_Y, z=PICK_Z),
-            "Take what is at a position, and lift it.",
-            yaw=0.0,
-        ),
+        table.picking(x=PICK_X, y=PICK_Y, z=PICK_Z, yaw=0.0),
         SkillSpec(
             "push",
             table.push("where the push starts", x=PUSH_X, y=PUSH_Y, z=PUSH_Z, delta=PUSH_DELTA),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from robot_adapters.base import ParameterSpec
+from robot_adapters.base import ParameterSpec, SkillSpec
 
 HEIGHT = -0.112
 """z of the surface, m, robot base frame: robosuite's table at 0.8 seen from the Panda's base at 0.912."""
@@ -42,3 +42,15 @@ def push(what: str, *, x: Bounds, y: Bounds, z: Bounds, delta: Bounds) -> tuple[
         ParameterSpec("direction", "", -1.0, 1.0, "below 0: along x, otherwise along y"),
         ParameterSpec("delta", "m", *delta, "how far to push; the sign says which way"),
     )
+
+
+def picking(*, x: Bounds, y: Bounds, z: Bounds, yaw: float | None = None) -> SkillSpec:
+    """A pick within these bounds; `yaw` as in `SkillSpec`."""
+    where = position("where the fingers close", x=x, y=y, z=z)
+    return SkillSpec("pick", where, "Take what is at a position, and lift it.", yaw=yaw)
+
+
+def placing(*, x: Bounds, y: Bounds, z: Bounds, yaw: float | None = None) -> SkillSpec:
+    """A place within these bounds; `yaw` as in `SkillSpec`."""
+    where = position("where the fingers open", x=x, y=y, z=z)
+    return SkillSpec("place", where, "Bring what is held to a position; let go.", yaw=yaw)
