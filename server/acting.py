@@ -5,6 +5,7 @@ Training and evaluation use the same two functions, so that there is one way to 
 
 from __future__ import annotations
 
+import asyncio
 import logging
 from collections.abc import Callable
 from functools import cached_property
@@ -18,6 +19,7 @@ from server.crew import Crew
 from server.crew_values import Done, Seen
 from server.messages import ExecutionEnded, ExecutionStarted, ProposalClosed, StreamEvent
 from server.owed import Owed
+from server.robots import Robot
 from server.schemas import Execution, ExecutionOutcome, Experiment, Proposal
 from server.store import Conflict, Store, StoreError
 from server.store_values import NewProposal, NewView, Purpose
@@ -29,13 +31,16 @@ Publish = Callable[[StreamEvent], None]
 
 
 class Acting:
-    """Draws proposals and moves the robot by approved ones, for one experiment."""
+    """Draws proposals for one robot of an experiment, and moves it by approved ones."""
 
-    def __init__(self, experiment: Experiment, store: Store, crew: Crew, publish: Publish, owed: Owed) -> None:
+    def __init__(
+        self, experiment: Experiment, store: Store, crew: Crew, robot: Robot, *, publish: Publish, owed: Owed
+    ) -> None:
         self._experiment = experiment
         self._experiment_id = experiment.id
         self._store = store
         self._crew = crew
+        self._robot = robot
         self._publish = publish
         self._owed = owed
 
@@ -54,7 +59,7 @@ class Acting:
     async def draw(self, seen: Seen, *, purpose: Purpose = "training", deterministic: bool = False) -> NewProposal:
         """Sample a ~ pi_phi(.|s), x ~ pi_psi(.|s, a), and draw the call on the images of the observation."""
         idea = await self._crew.propose(seen.state, deterministic=deterministic)
-        overlays = await self._crew.overlay(idea.call)
+        overlays = await self._robot.overlay(idea.call)
         spec = check_call(idea.call, self.task.skills)
         return NewProposal(
             experiment_id=self._experiment_id,
@@ -69,6 +74,7 @@ class Acting:
             subgoal=self._subgoal(seen),
             views=[NewView(p.camera, p.width, p.height, p.image, overlays[p.camera]) for p in seen.pictures],
             purpose=purpose,
+            robot=self._robot.index,
         )
 
     async def decide(self, proposal: Proposal, seen: Seen) -> Execution | None:
@@ -84,9 +90,14 @@ class Acting:
         return execution
 
     async def move(
-        self, proposal: Proposal, execution: Execution, heed: Callable[[Done], None] = lambda _: None
+        self,
+        proposal: Proposal,
+        execution: Execution,
+        *,
+        heed: Callable[[Done], None] = lambda _: None,
+        before: asyncio.Task[None] | None = None,
     ) -> Done:
-        """Run exactly the approved call and store what came of it; `heed` is told of it before.
+        """Run exactly the approved call, have `heed` told of it, and store what came of it once `before` has ended.
 
         Raises:
             WorkerDied: the robot worker went away in the middle; the execution is stored as interrupted.
@@ -94,14 +105,16 @@ class Acting:
         """
         self._publish(ExecutionStarted(execution=execution))
         try:
-            done = await self._crew.execute(proposal.id, execution.id, proposal.digest, self.call_of(proposal))
+            done = await self._robot.execute(proposal, execution.id, self.call_of(proposal))
         except CommandFailed as refusal:
             log.warning("execution %d was refused by the robot worker: %s", execution.id, refusal)
             done = Done.nothing(str(refusal), stopped=refusal.kind == "Latched")
         except WorkerDied:
+            await _ended(before)
             await self._end(execution.id, ExecutionOutcome.INTERRUPTED, None)
             raise
         heed(done)
+        await _ended(before)
         outcome = ExecutionOutcome.SUCCEEDED if done.arrived else ExecutionOutcome.FAILED
         await self._end(execution.id, ExecutionOutcome.STOPPED if done.stopped else outcome, done)
         return done
@@ -141,3 +154,9 @@ class Acting:
 
     def _subgoal(self, seen: Seen) -> str:
         return self.task.subgoals[self.task.subgoal(np.array(seen.state))].description
+
+
+async def _ended(task: asyncio.Task[None] | None) -> None:
+    """Wait for its end, whatever that is."""
+    if task is not None:
+        await asyncio.wait({task})

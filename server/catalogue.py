@@ -109,6 +109,11 @@ def check(body: ExperimentCreate) -> ExperimentCreate:
             [FieldProblem(field="adapter", message=f"{body.adapter!r} can't stage the task {body.task!r}")],
             remedy=f"choose a task that {body.adapter} stages: {_list(staged)}",
         )
+    if body.num_envs > 1 and not adapter.simulated:
+        raise invalid(
+            [FieldProblem(field="num_envs", message=f"{body.adapter!r} is a real robot, of which there is one")],
+            remedy="leave num_envs at 1, or choose a simulated adapter",
+        )
     algorithm = _known("algorithm", body.algorithm, algorithms())
     preset: Mapping[str, Any] = {}
     if body.preset is not None:

@@ -72,6 +72,9 @@ def train(  # noqa: PLR0917  Typer makes an option of each
     teacher: Annotated[str, typer.Option(help="the synthetic trainer that judges")] = "synthetic",
     feedback: Annotated[int, typer.Option(min=1, help="feedback to train with")] = 300,
     seed: Annotated[int, typer.Option(min=0, max=2**31 - 1, help="seed of robot and learner")] = 0,
+    num_envs: Annotated[
+        int, typer.Option(min=1, max=16, help="simulated robots at once; they share the learner")
+    ] = 1,
     evaluate: Annotated[int, typer.Option(min=0, max=1000, help="rollouts of the final evaluation; 0: none")] = 10,
     name: Annotated[str | None, typer.Option(help="name of the experiment")] = None,
     changes: Annotated[
@@ -96,6 +99,7 @@ def train(  # noqa: PLR0917  Typer makes an option of each
         "preset": preset,
         "teacher": teacher,
         "seed": seed,
+        "num_envs": num_envs,
     }
     try:
         fields |= settings_from(changes or [])

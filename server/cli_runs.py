@@ -48,6 +48,8 @@ class Interrupted(Exception):
 class Bar:
     """A `Publisher` that draws what it hears as a progress bar on standard error."""
 
+    shows_frames = False
+
     def __init__(self, console: Console) -> None:
         self._progress = Progress(
             TextColumn("{task.description:<28}"),

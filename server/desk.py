@@ -1,4 +1,4 @@
-"""The proposal that lies before the trainers: presented, judged, timed out, taken back, withdrawn.
+"""The proposal of one robot that lies before the trainers: presented, judged, timed out, taken back, withdrawn.
 
 At most one is open. A verdict of good stays here as `judged` until the gate has been asked, so that taking the click
 back and starting the motion exclude each other.
@@ -16,6 +16,7 @@ from server.acting import Publish
 from server.crew import Crew
 from server.ledger import Ledger
 from server.messages import FeedbackStored, FeedbackUndone, ProposalClosed, ProposalOpened
+from server.robots import Robot
 from server.schemas import CloseReason, Experiment, Feedback, FeedbackCreate, FeedbackStatus, Mode, Proposal, Verdict
 from server.store import Store, StoreError
 from server.store_values import NewProposal, StoredLabel, Submission
@@ -23,13 +24,21 @@ from server.worker import WorkerDied
 
 
 class Desk:
-    """The open proposal of one experiment, and the clicks on it."""
+    """The open proposal of one robot, and the clicks on it."""
 
     def __init__(
-        self, store: Store, crew: Crew, ledger: Ledger, publish: Publish, experiment: Callable[[], Experiment]
+        self,
+        store: Store,
+        crew: Crew,
+        robot: Robot,
+        ledger: Ledger,
+        publish: Publish,
+        *,
+        experiment: Callable[[], Experiment],
     ) -> None:
         self._store = store
         self._crew = crew
+        self._robot = robot
         self._ledger = ledger
         self._publish = publish
         self._experiment = experiment
@@ -172,8 +181,7 @@ class Desk:
             self.open, self.judged = None, closed
             # without a verdict there is nothing to learn: the votes on a proposal come together
             votes, self._votes = self._votes, []
-            for vote in votes:
-                self._crew.learn(vote)
+            self._crew.learn(votes)
         good = closed is not None and closed.verdict is Verdict.GOOD
         moves = good and self._experiment().mode is Mode.EXECUTE_APPROVED
         self._publish(FeedbackStored(feedback=feedback, undoable=not moves))
@@ -216,8 +224,8 @@ class Desk:
         """Wait for news; False if there is none within so many seconds."""
         waits = {
             asyncio.ensure_future(self._news.wait()),
-            asyncio.ensure_future(self._crew.death("robot")),
-            asyncio.ensure_future(self._crew.death("learner")),
+            asyncio.ensure_future(self._robot.post.death()),
+            asyncio.ensure_future(self._crew.learner.death()),
         }
         try:
             done, _ = await asyncio.wait(waits, timeout=seconds, return_when=asyncio.FIRST_COMPLETED)

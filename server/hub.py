@@ -8,6 +8,7 @@ from collections import defaultdict
 from datetime import UTC, datetime
 from typing import Literal
 
+from server.desk import Desk
 from server.lifecycle import MOVING
 from server.messages import EvaluationChanged, ExecutionEnded, ExperimentChanged, Snapshot
 from server.publisher import Publisher
@@ -21,6 +22,7 @@ from server.schemas import (
     Feedback,
     FeedbackCreate,
     Lifecycle,
+    Proposal,
 )
 from server.settings import Settings
 from server.store import Conflict, NotFound, Receipt, Store, StoreError
@@ -70,16 +72,18 @@ class Hub:
 
     async def snapshot(self, experiment_id: int, boot_id: str) -> Snapshot:
         """Everything a page needs to draw itself."""
-        experiment, proposal, execution, undoable = await asyncio.gather(
+        experiment, proposals, executions, undoable = await asyncio.gather(
             self.view(experiment_id),
-            self.store.open_proposal_of(experiment_id),
-            self.store.running_execution(experiment_id),
+            self.store.open_proposals(experiment_id),
+            self.store.running_executions(experiment_id),
             self.store.undoable(experiment_id),
         )
         return Snapshot(
             experiment=experiment,
-            proposal=proposal,
-            execution=execution,
+            proposal=proposals[0] if proposals else None,
+            proposals=proposals,
+            execution=executions[0] if executions else None,
+            executions=executions,
             undoable=undoable,
             server_time=datetime.now(UTC),
             boot_id=boot_id,
@@ -111,11 +115,15 @@ class Hub:
 
     # --- verbs --------------------------------------------------------------------------------------------------
 
-    async def act(self, experiment_id: int, verb: Act, *, until: int | None = None) -> Experiment:
-        """Do what a person asks of an experiment. `until`: pause by itself once so much feedback is stored.
+    async def act(
+        self, experiment_id: int, verb: Act, *, until: int | None = None, robot: int | None = None
+    ) -> Experiment:
+        """Do what a person asks of an experiment.
+
+        until: pause by itself once so much feedback is stored. robot: reset this one only.
 
         Raises:
-            NotFound: no such experiment. Conflict: the verb is illegal now; nothing has changed.
+            NotFound: no such experiment, or robot of it. Conflict: the verb is illegal now; nothing has changed.
         """
         if verb == "halt":
             return await self._halt(experiment_id)
@@ -125,17 +133,18 @@ class Hub:
                 raise Conflict(
                     f"can't {verb} an experiment while it is evaluated", remedy="wait for its end, or halt it"
                 )
+            if robot is not None and robot >= len(runner.stations):
+                raise NotFound("robot of this experiment", robot)
             # what has happened already is stored first
             await runner.standing.owed.settle()
             if verb in MOVING:
                 runner.check(verb)
             stops = runner.crew.stops
-            # together with the loop's own steps, so that none of them meets a state that it didn't expect
-            async with runner.desk.turn:
-                experiment = await self._store_verb(runner, experiment_id, verb)
+            async with runner.turn():
+                experiment = await self._store_verb(runner, experiment_id, verb, robot)
                 if verb in ("pause", "finish", "archive"):
                     runner.leave()
-            await self._follow(runner, verb, until, stops)
+            await self._follow(runner, verb, until, stops, robot)
             runner.changed(experiment)
             return runner.experiment
 
@@ -185,15 +194,15 @@ class Hub:
             NotFound: no such proposal, or not one of `experiment_id`. Conflict: the click id was used for another
                 click, or the proposal isn't for people to judge.
         """
-        opened = {r.desk.open.id: key for key, r in self._runners.items() if r.desk.open is not None}
-        owner = opened.get(proposal_id)
-        if owner is None:
-            owner = (await self.store.proposal(proposal_id)).experiment_id
-        if experiment_id is not None and owner != experiment_id:
+        desks = (station.desk for runner in self._runners.values() for station in runner.stations)
+        proposal = next((desk.open for desk in desks if desk.open is not None and desk.open.id == proposal_id), None)
+        if proposal is None:
+            proposal = await self.store.proposal(proposal_id)
+        if experiment_id is not None and proposal.experiment_id != experiment_id:
             raise NotFound("proposal of this experiment", proposal_id)
-        runner = await self._runner(owner)
+        desk = await self._desk_of(proposal)
         # a click that has come is carried through, even if its sender leaves meanwhile
-        submission = await asyncio.shield(asyncio.create_task(runner.desk.feedback(proposal_id, body, "person")))
+        submission = await asyncio.shield(asyncio.create_task(desk.feedback(proposal_id, body, "person")))
         return submission.feedback, submission.duplicate
 
     async def undo(self, feedback_id: int) -> Feedback:
@@ -203,8 +212,8 @@ class Hub:
             NotFound: no such feedback. Conflict: it is too late.
         """
         feedback = await self.store.feedback(feedback_id)
-        runner = await self._runner(feedback.experiment_id)
-        return await asyncio.shield(asyncio.create_task(runner.desk.undo(feedback_id)))
+        desk = await self._desk_of(await self.store.proposal(feedback.proposal_id))
+        return await asyncio.shield(asyncio.create_task(desk.undo(feedback_id)))
 
     # --- inside -------------------------------------------------------------------------------------------------
 
@@ -218,26 +227,28 @@ class Hub:
             # it is stopped all the same, and everyone is told so
             log.error("experiment %d: the emergency stop can't be stored for now: %s", experiment_id, error)  # noqa: TRY400
             runner.standing.owe_halt()
-            runner.desk.drop()
+            runner.drop()
         else:
             runner.changed(experiment)
-            await runner.desk.withdraw()
+            await runner.withdraw()
         return runner.experiment
 
-    async def _store_verb(self, runner: Runner, experiment_id: int, verb: Act | Literal["evaluate"]) -> Experiment:
+    async def _store_verb(
+        self, runner: Runner, experiment_id: int, verb: Act | Literal["evaluate"], robot: int | None = None
+    ) -> Experiment:
         if verb == "rearm":
             # a stop may be latched here that has not reached the database
             return await self.store.rearm(experiment_id, latched=runner.crew.halted)
         if verb not in MOVING or verb == "reset" or runner.busy:
-            return await self.store.transition(experiment_id, verb)
+            return await self.store.transition(experiment_id, verb, robot=robot)
         # nothing of it goes on: what has no end in the database never got it written
-        left = await self.store.running_execution(experiment_id)
+        unfinished = await self.store.running_executions(experiment_id)
         experiment = await self.store.transition(experiment_id, verb, settle=True)
-        if left is not None:
+        for left in unfinished:
             self._publisher.publish(experiment_id, ExecutionEnded(execution=await self.store.execution(left.id)))
         return experiment
 
-    async def _follow(self, runner: Runner, verb: Act, until: int | None, stops: int) -> None:
+    async def _follow(self, runner: Runner, verb: Act, until: int | None, stops: int, robot: int | None) -> None:
         """What a stored verb means for the runner. A re-arm lifts the stops that were there when it was asked for."""
         if verb in ("start", "resume"):
             runner.go(until=until)
@@ -246,9 +257,9 @@ class Hub:
             if runner.crew.halted:  # by a stop since then, which may have been stored before this verb lifted it
                 runner.standing.owe_halt()
         elif verb == "reset":
-            await runner.reset()
+            await runner.reset(robot)
         elif verb in ("pause", "finish"):
-            await runner.desk.withdraw()
+            await runner.withdraw()
         if verb in ("finish", "archive"):
             runner.dismiss()
 
@@ -260,6 +271,9 @@ class Hub:
                     runner.changed(await self.store.transition(experiment_id, "pause"))
             finally:
                 await runner.close(grace=CLOSE_GRACE)
+
+    async def _desk_of(self, proposal: Proposal) -> Desk:
+        return (await self._runner(proposal.experiment_id)).stations[proposal.robot].desk
 
     async def _runner(self, experiment_id: int) -> Runner:
         if experiment_id not in self._runners:

@@ -15,6 +15,7 @@ from server.schemas import (
     Feedback,
     MetricPoint,
     Proposal,
+    RobotIndex,
     RowId,
     TrainerName,
     Value,
@@ -30,8 +31,10 @@ class Snapshot(Wire):
 
     type: Literal["snapshot"] = "snapshot"
     experiment: Experiment
-    proposal: Annotated[Proposal | None, Field(description="the open proposal, if any")] = None
-    execution: Annotated[Execution | None, Field(description="the running execution, if any")] = None
+    proposal: Annotated[Proposal | None, Field(description="the oldest open proposal, if any")] = None
+    proposals: Annotated[list[Proposal], Field(description="every open proposal, one a robot at most, oldest first")]
+    execution: Annotated[Execution | None, Field(description="the oldest running execution, if any")] = None
+    executions: Annotated[list[Execution], Field(description="every running execution, oldest first")]
     undoable: Annotated[Feedback | None, Field(description="the newest feedback, while it can be undone")] = None
     server_time: datetime
     boot_id: Annotated[str, Field(description="changes when the server restarts")]
@@ -100,6 +103,7 @@ class WorkerChanged(Wire):
 
     type: Literal["worker_changed"] = "worker_changed"
     worker: Literal["robot", "learner"]
+    robot: Annotated[int | None, Field(description="which robot, from 0; null for the learner")] = None
     status: Literal["starting", "ready", "died", "restarted"]
     detail: str
 
@@ -156,6 +160,7 @@ StreamEvent = Annotated[
 class FrameHeader(Wire):
     """JSON header of a binary frame: `[u32 big-endian header length][this][JPEG]`."""
 
+    robot: RobotIndex = 0
     camera: str
     width: int
     height: int

@@ -63,9 +63,10 @@ def _one_of(column: str, *values: str) -> CheckConstraint:
     return CheckConstraint(f"{column} IN ({listed})", name=column)
 
 
-def _at_most_one(name: str, column: str, where: str) -> Index:
-    """A unique index over the rows that satisfy `where` only."""
-    return Index(name, column, unique=True, sqlite_where=text(where), postgresql_where=text(where))
+def _one_a_robot(name: str, where: str) -> Index:
+    """Of the rows that satisfy `where`, a robot has one at most."""
+    columns = ("experiment_id", "robot")
+    return Index(name, *columns, unique=True, sqlite_where=text(where), postgresql_where=text(where))
 
 
 class ExperimentRow(Base):
@@ -93,6 +94,7 @@ class ExperimentRow(Base):
     feedback_timeout: Mapped[float | None]
     teacher: Mapped[str | None]
     lockstep: Mapped[bool]
+    num_envs: Mapped[int] = mapped_column(default=1, server_default=text("1"))
     lifecycle: Mapped[str]
     halted: Mapped[bool] = mapped_column(default=False)
     failure: Mapped[str | None] = mapped_column(Text)
@@ -120,11 +122,12 @@ class EpisodeRow(Base):
         _one_of("outcome", "success", "horizon", "violation", "reset", "interrupted"),
         _one_of("purpose", "training", "evaluation"),
         CheckConstraint("(outcome IS NULL) = (ended_at IS NULL)", name="ended"),
-        _at_most_one("uq_episode_open", "experiment_id", "ended_at IS NULL"),
+        _one_a_robot("uq_episode_open", "ended_at IS NULL"),
     )
 
     id: Mapped[int] = mapped_column(primary_key=True)
     experiment_id: Mapped[int] = mapped_column(ForeignKey("experiment.id"))
+    robot: Mapped[int] = mapped_column(default=0, server_default=text("0"))
     number: Mapped[int]
     purpose: Mapped[str]
     seed: Mapped[int]
@@ -162,13 +165,14 @@ class ProposalRow(Base):
             name="judged",
         ),
         CheckConstraint("(gate_allowed IS NULL) = (gate_reason IS NULL)", name="gate"),
-        _at_most_one("uq_proposal_open", "experiment_id", "closed_at IS NULL"),
+        _one_a_robot("uq_proposal_open", "closed_at IS NULL"),
     )
 
     id: Mapped[int] = mapped_column(primary_key=True)
     experiment_id: Mapped[int] = mapped_column(ForeignKey("experiment.id"))
     episode_id: Mapped[int] = mapped_column(ForeignKey("episode.id"), index=True)
     observation_id: Mapped[int] = mapped_column(ForeignKey("observation.id"), index=True)
+    robot: Mapped[int] = mapped_column(default=0, server_default=text("0"))
     number: Mapped[int]
     purpose: Mapped[str]
     skill: Mapped[str]
@@ -244,13 +248,14 @@ class ExecutionRow(Base):
         UniqueConstraint("proposal_id"),
         _one_of("outcome", "succeeded", "failed", "stopped", "interrupted"),
         CheckConstraint("(outcome IS NULL) = (ended_at IS NULL)", name="ended"),
-        _at_most_one("uq_execution_running", "experiment_id", "ended_at IS NULL"),
+        _one_a_robot("uq_execution_running", "ended_at IS NULL"),
         Index("ix_execution_experiment_id_id", "experiment_id", "id"),
     )
 
     id: Mapped[int] = mapped_column(primary_key=True)
     experiment_id: Mapped[int] = mapped_column(ForeignKey("experiment.id"))
     proposal_id: Mapped[int] = mapped_column(ForeignKey("proposal.id"))
+    robot: Mapped[int] = mapped_column(default=0, server_default=text("0"))
     started_at: Mapped[datetime]
     ended_at: Mapped[datetime | None]
     outcome: Mapped[str | None]

@@ -10,6 +10,9 @@ from server.messages import FrameHeader, StreamEvent
 class Publisher(Protocol):
     """Takes events in their order. Neither method waits for anybody or raises."""
 
+    shows_frames: bool
+    """Whether live pictures are of any use; where not, none are rendered."""
+
     def publish(self, experiment_id: int, event: StreamEvent) -> None:
         """Tell all viewers of an experiment."""
 

@@ -8,19 +8,20 @@ from __future__ import annotations
 
 import asyncio
 
-from server.acting import Acting, Publish
+from server.acting import Publish
 from server.crew import Crew
 from server.crew_values import Seen
 from server.messages import EvaluationChanged
 from server.schemas import Evaluation
+from server.station import Station
 from server.store import Store
 from server.store_values import EpisodeOutcome
 
 
 async def roll_out(
-    evaluation: Evaluation, acting: Acting, crew: Crew, store: Store, *, leave: asyncio.Event, publish: Publish
+    evaluation: Evaluation, station: Station, crew: Crew, store: Store, *, leave: asyncio.Event, publish: Publish
 ) -> None:
-    """Run all rollouts, or those until `leave`; what was done is stored after each.
+    """Run all rollouts on this robot, or those until `leave`; what was done is stored after each.
 
     Raises:
         WorkerDied: a worker went away; the evaluation is stored as what it did until then.
@@ -28,16 +29,16 @@ async def roll_out(
     experiment_id = evaluation.experiment_id
     successes = steps = done = 0
     try:
-        await crew.bring_up()
+        await crew.bring_up([station.robot])
         await crew.flush()  # one policy for all rollouts
         while done < evaluation.rollouts and not leave.is_set():
             seed = evaluation.seed + done
-            await store.begin_episode(experiment_id, seed, purpose="evaluation")
+            await store.begin_episode(experiment_id, seed, "evaluation", robot=station.robot.index)
             outcome: EpisodeOutcome = "interrupted"
             try:
-                outcome, taken = await _one(await crew.reset(seed), acting, crew, store, leave)
+                outcome, taken = await _one(await station.robot.reset(seed), station, store, leave)
             finally:
-                await store.end_episode(experiment_id, outcome)
+                await store.end_episode(experiment_id, outcome, robot=station.robot.index)
             steps += taken
             if outcome == "interrupted":
                 return
@@ -54,11 +55,9 @@ async def roll_out(
         publish(EvaluationChanged(evaluation=ended, done=done))
 
 
-async def _one(
-    seen: Seen, acting: Acting, crew: Crew, store: Store, leave: asyncio.Event
-) -> tuple[EpisodeOutcome, int]:
+async def _one(seen: Seen, station: Station, store: Store, leave: asyncio.Event) -> tuple[EpisodeOutcome, int]:
     """One rollout from a fresh start: how it ended, and its low-level steps."""
-    steps = 0
+    acting, steps = station.acting, 0
     for _ in range(acting.task.horizon):
         if leave.is_set():
             return "interrupted", steps
@@ -79,5 +78,5 @@ async def _one(
             return "success", steps
         if violated:
             return "violation", steps
-        seen = await crew.observe()
+        seen = await station.robot.observe()
     return "horizon", steps

@@ -69,6 +69,7 @@ ClickId = Annotated[
     ),
 ]
 RowId = Annotated[StrictInt, Field(ge=1, lt=2**63)]
+RobotIndex = Annotated[int, Field(description="which robot of the experiment, from 0")]
 Seed = Annotated[StrictInt, Field(ge=0, lt=2**31)]
 Name = Annotated[str, Field(min_length=1, max_length=120, pattern=r"^[^\x00-\x1f\x7f]+$")]
 TrainerName = Annotated[str, Field(min_length=1, max_length=64, pattern=r"^[^\x00-\x1f\x7f]+$")]
@@ -100,6 +101,9 @@ class ExperimentCreate(Wire):
     preset: Annotated[str | None, Field(examples=["paper_sim"], description="a preset of the algorithm")] = None
     settings: Annotated[dict[str, Any], Field(description="the algorithm's settings that differ from the preset")] = {}
     adapter_settings: Annotated[dict[str, Any], Field(description="the adapter's settings")] = {}
+    num_envs: Annotated[
+        StrictInt, Field(ge=1, le=16, description="simulated robots at once, each in a process; they share the learner")
+    ] = 1
     seed: Seed = 0
     mode: Mode = Mode.EXECUTE_APPROVED
     aggregation: Aggregation = Aggregation.FIRST
@@ -141,6 +145,7 @@ class Experiment(Wire):
     preset: str | None
     settings: dict[str, Any]
     adapter_settings: dict[str, Any]
+    num_envs: int
     seed: int
     mode: Mode
     aggregation: Aggregation
@@ -223,6 +228,7 @@ class Proposal(Wire):
 
     id: int
     experiment_id: int
+    robot: RobotIndex
     episode: Annotated[int, Field(description="number of the episode in its experiment, from 1")]
     number: Annotated[int, Field(description="number of the proposal in its experiment, from 1")]
     observation_id: str
@@ -299,6 +305,7 @@ class Execution(Wire):
     id: int
     experiment_id: int
     proposal_id: int
+    robot: RobotIndex
     skill: str
     parameters: dict[str, float]
     started_at: datetime

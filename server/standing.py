@@ -11,6 +11,19 @@ from server.owed import Owed
 from server.schemas import Experiment, Lifecycle, Phase
 from server.store import Conflict, Store, StoreError
 
+_MOST_TOLD = (
+    Phase.EVALUATING,
+    Phase.AWAITING_FEEDBACK,
+    Phase.EXECUTING,
+    Phase.DECIDING,
+    Phase.PROPOSING,
+    Phase.OBSERVING,
+    Phase.LEARNING,
+    Phase.STARTING,
+    Phase.IDLE,
+)
+"""Where robots do different things, the first of these that one of them does is the experiment's phase."""
+
 
 class Standing:
     """The experiment as everyone is told of it. A stop and a failure count from when they happen, stored or not."""
@@ -28,14 +41,22 @@ class Standing:
         self._publish = publish
         self._halted = halted
         self._failure: str | None = None
-        self.phase = experiment.phase
-        """What goes on right now."""
+        self._phases = [experiment.phase] * experiment.num_envs
         self.owed = Owed(experiment.id)
 
     @property
     def experiment(self) -> Experiment:
         """As it is now."""
         return self.live(self._stored)
+
+    @property
+    def phase(self) -> Phase:
+        """What goes on right now."""
+        return min(self._phases, key=_MOST_TOLD.index)
+
+    def phase_of(self, robot: int) -> Phase:
+        """What goes on with this robot right now."""
+        return self._phases[robot]
 
     def live(self, stored: Experiment) -> Experiment:
         """A stored state, with what the store doesn't know."""
@@ -57,10 +78,10 @@ class Standing:
         """Tell everyone how it stands."""
         self._publish(ExperimentChanged(experiment=self.experiment))
 
-    def enter(self, phase: Phase) -> None:
-        """Change the live phase and tell everyone."""
-        if self.phase is not phase:
-            self.phase = phase
+    def enter(self, phase: Phase, robot: int) -> None:
+        """Change the live phase of a robot, and tell everyone if the experiment's changes with it."""
+        before, self._phases[robot] = self.phase, phase
+        if self.phase is not before:
             self.tell()
 
     def must_be_armed(self, verb: lifecycle.Verb) -> None:

@@ -93,15 +93,25 @@ class Store(Reads):
         return await self._write(lambda s: wire.experiment(store_experiments.update(s, experiment_id, change)))
 
     async def transition(
-        self, experiment_id: int, verb: Verb, failure: str | None = None, *, settle: bool = False
+        self,
+        experiment_id: int,
+        verb: Verb,
+        failure: str | None = None,
+        *,
+        settle: bool = False,
+        robot: int | None = None,
     ) -> schemas.Experiment:
-        """Apply a verb of `server.lifecycle`. Leaving `running` closes the open proposal in the same transaction.
+        """Apply a verb of `server.lifecycle`. Leaving `running` closes the open proposals in the same transaction.
 
         settle: end in it, as interrupted, what never got its end written; only where nothing of it goes on.
+        robot: a reset is of this one only.
         """
-        return await self._write(
-            lambda s: wire.experiment(store_experiments.transition(s, experiment_id, verb, failure, unfinished=settle))
-        )
+
+        def apply(session: Session) -> schemas.Experiment:
+            row = store_experiments.transition(session, experiment_id, verb, failure, unfinished=settle, robot=robot)
+            return wire.experiment(row)
+
+        return await self._write(apply)
 
     async def halt(self, experiment_id: int) -> schemas.Experiment:
         """Latch the emergency stop. Never refused; again, it changes nothing."""
@@ -115,13 +125,17 @@ class Store(Reads):
         """Settle what an ended process left behind; the ids of the experiments that it concerned."""
         return await self._write(store_experiments.recover)
 
-    async def begin_episode(self, experiment_id: int, seed: int, purpose: Purpose = "training") -> int:
-        """Begin an episode and return its number; one that goes on ends by reset."""
-        return await self._write(lambda s: store_experiments.begin_episode(s, experiment_id, seed, purpose).number)
+    async def begin_episode(
+        self, experiment_id: int, seed: int, purpose: Purpose = "training", *, robot: int = 0
+    ) -> int:
+        """Begin a robot's episode and return its number; one that goes on ends by reset."""
+        return await self._write(
+            lambda s: store_experiments.begin_episode(s, experiment_id, seed, purpose, robot).number
+        )
 
-    async def end_episode(self, experiment_id: int, outcome: EpisodeOutcome) -> None:
-        """End the episode that goes on, if any."""
-        await self._write(lambda s: store_experiments.end_episode(s, experiment_id, outcome))
+    async def end_episode(self, experiment_id: int, outcome: EpisodeOutcome, *, robot: int = 0) -> None:
+        """End the episode that goes on with a robot, if any."""
+        await self._write(lambda s: store_experiments.end_episode(s, experiment_id, outcome, robot))
 
     # --- proposals and feedback -------------------------------------------------------------------------------------
 

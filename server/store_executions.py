@@ -36,7 +36,9 @@ def begin(
         reason = "it was executed already" if proposal.gate_allowed else str(proposal.gate_reason)
         return schemas.GateDecision(allowed=False, reason=reason), None
     moving = select(ExecutionRow.id).where(
-        ExecutionRow.experiment_id == proposal.experiment_id, ExecutionRow.ended_at.is_(None)
+        ExecutionRow.experiment_id == proposal.experiment_id,
+        ExecutionRow.robot == proposal.robot,
+        ExecutionRow.ended_at.is_(None),
     )
     if (running := session.scalar(moving)) is not None:
         raise Conflict(f"execution {running} still moves the robot", remedy="wait until it has ended")
@@ -54,7 +56,7 @@ def begin(
     if not decision.allowed:
         session.flush()
         return decision, None
-    row = ExecutionRow(experiment_id=experiment.id, proposal=proposal, started_at=now())
+    row = ExecutionRow(experiment_id=experiment.id, robot=proposal.robot, proposal=proposal, started_at=now())
     session.add(row)
     if proposal.purpose == "training":
         experiment.executions += 1

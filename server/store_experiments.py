@@ -89,8 +89,11 @@ def transition(
     failure: str | None = None,
     *,
     unfinished: bool = False,
+    robot: int | None = None,
 ) -> ExperimentRow:
     """Apply a verb of the lifecycle. `unfinished`: end what never got its end written, because none of it goes on.
+
+    robot: a reset is of this one only.
 
     Raises:
         Conflict: it is illegal now; a second `halt` isn't, it changes nothing.
@@ -108,7 +111,7 @@ def transition(
     if unfinished:
         settle(session, experiment_id)
     if verb in LEAVING:
-        close_open(session, experiment_id, LEAVING[verb])
+        close_open(session, experiment_id, LEAVING[verb], robot)
     payload = {"from": before.lifecycle.value, "to": after.lifecycle.value}
     if verb == "fail":
         payload["failure"] = str(row.failure)
@@ -123,42 +126,53 @@ def rearm(session: Session, experiment_id: int, *, latched: bool) -> ExperimentR
     return transition(session, experiment_id, "rearm")
 
 
-def close_open(session: Session, experiment_id: int, reason: schemas.CloseReason) -> None:
-    """Close the open proposal, if there is one, without a verdict."""
+def close_open(session: Session, experiment_id: int, reason: schemas.CloseReason, robot: int | None = None) -> None:
+    """Close the open proposals, of one robot or of all, without a verdict."""
     query = select(ProposalRow).where(ProposalRow.experiment_id == experiment_id, ProposalRow.closed_at.is_(None))
+    if robot is not None:
+        query = query.where(ProposalRow.robot == robot)
     for row in session.scalars(query):
         row.closed_at, row.close_reason = now(), reason.value
     session.flush()
 
 
-def open_episode(session: Session, experiment_id: int) -> EpisodeRow | None:
-    """The episode that goes on."""
-    query = select(EpisodeRow).where(EpisodeRow.experiment_id == experiment_id, EpisodeRow.ended_at.is_(None))
+def open_episode(session: Session, experiment_id: int, robot: int) -> EpisodeRow | None:
+    """The episode that goes on with this robot."""
+    query = select(EpisodeRow).where(
+        EpisodeRow.experiment_id == experiment_id, EpisodeRow.robot == robot, EpisodeRow.ended_at.is_(None)
+    )
     return session.scalars(query).one_or_none()
 
 
-def begin_episode(session: Session, experiment_id: int, seed: int, purpose: Purpose = "training") -> EpisodeRow:
-    """Begin an episode; one that still goes on ends with it, by reset. Only training ones are counted."""
+def begin_episode(
+    session: Session, experiment_id: int, seed: int, purpose: Purpose = "training", robot: int = 0
+) -> EpisodeRow:
+    """Begin a robot's episode; one that still goes on ends with it, by reset. Only training ones are counted."""
     row = load(session, experiment_id)
-    if open_episode(session, experiment_id) is not None:
-        end_episode(session, experiment_id, "reset")
+    if open_episode(session, experiment_id, robot) is not None:
+        end_episode(session, experiment_id, "reset", robot)
     newest = session.scalar(select(func.max(EpisodeRow.number)).where(EpisodeRow.experiment_id == experiment_id))
     episode = EpisodeRow(
-        experiment_id=experiment_id, number=(newest or 0) + 1, purpose=purpose, seed=seed, started_at=now()
+        experiment_id=experiment_id,
+        robot=robot,
+        number=(newest or 0) + 1,
+        purpose=purpose,
+        seed=seed,
+        started_at=now(),
     )
     session.add(episode)
     if purpose == "training":
         row.episodes += 1
         row.updated_at = now()
     session.flush()
-    journal(session, experiment_id, "episode_started", episode=episode.number, seed=seed, purpose=purpose)
+    journal(session, experiment_id, "episode_started", episode=episode.number, robot=robot, seed=seed, purpose=purpose)
     return episode
 
 
-def end_episode(session: Session, experiment_id: int, outcome: EpisodeOutcome) -> None:
-    """End the episode that goes on; without one nothing happens. A training success is counted."""
+def end_episode(session: Session, experiment_id: int, outcome: EpisodeOutcome, robot: int = 0) -> None:
+    """End the episode that goes on with a robot; without one nothing happens. A training success is counted."""
     row = load(session, experiment_id)
-    episode = open_episode(session, experiment_id)
+    episode = open_episode(session, experiment_id, robot)
     if episode is None:
         return
     episode.outcome, episode.ended_at = outcome, now()
@@ -166,7 +180,7 @@ def end_episode(session: Session, experiment_id: int, outcome: EpisodeOutcome) -
         row.successes += 1
         row.updated_at = now()
     session.flush()
-    journal(session, experiment_id, "episode_ended", episode=episode.number, outcome=outcome)
+    journal(session, experiment_id, "episode_ended", episode=episode.number, robot=robot, outcome=outcome)
 
 
 def settle(session: Session, experiment_id: int | None = None) -> set[int]:

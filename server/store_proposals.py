@@ -42,23 +42,24 @@ def open_proposal(session: Session, new: NewProposal) -> ProposalRow:
     """Store the observation, if it is new, and open the proposal.
 
     Raises:
-        Conflict: not running (an evaluation: not idle), halted, another proposal is open, or the robot still moves.
+        Conflict: not running (an evaluation: not idle), halted, its robot has another one open, or still moves.
     """
     experiment = load(session, new.experiment_id)
     if new.purpose == "training":
         must_be_running(experiment, "open a proposal")
     else:
         lifecycle.apply(state(experiment), "evaluate")
-    _must_stand_still(session, new.experiment_id)
+    _must_stand_still(session, new.experiment_id, new.robot)
     observation = _observation(session, new)
-    episode = open_episode(session, new.experiment_id)
+    episode = open_episode(session, new.experiment_id, new.robot)
     if episode is None or episode.purpose != new.purpose:
         if new.purpose == "training":
             raise Conflict("no episode has begun", remedy="reset the robot first")
-        episode = begin_episode(session, new.experiment_id, 0, "evaluation")
+        episode = begin_episode(session, new.experiment_id, 0, "evaluation", new.robot)
     newest = session.scalar(select(func.max(ProposalRow.number)).where(ProposalRow.experiment_id == new.experiment_id))
     row = ProposalRow(
         experiment_id=new.experiment_id,
+        robot=new.robot,
         episode=episode,
         observation=observation,
         number=(newest or 0) + 1,
@@ -192,7 +193,9 @@ def why_not_undoable(session: Session, row: FeedbackRow) -> str | None:
     if judged.episode.ended_at is not None:
         return "its episode has ended"
     since = select(ProposalRow.id).where(
-        ProposalRow.experiment_id == row.experiment_id, ProposalRow.number >= judged.number
+        ProposalRow.experiment_id == row.experiment_id,
+        ProposalRow.robot == judged.robot,
+        ProposalRow.number >= judged.number,
     )
     if session.scalar(select(ExecutionRow.id).where(ExecutionRow.proposal_id.in_(since)).limit(1)) is not None:
         return "the robot has moved since"
@@ -216,12 +219,15 @@ def undo(session: Session, feedback_id: int) -> Undone:
         raise Conflict(f"this feedback can't be undone: {reason}", remedy="go on with the open proposal")
     judged = load_proposal(session, row.proposal_id)
     query = select(ProposalRow).where(
-        ProposalRow.experiment_id == row.experiment_id, ProposalRow.closed_at.is_(None), ProposalRow.id != judged.id
+        ProposalRow.experiment_id == row.experiment_id,
+        ProposalRow.robot == judged.robot,
+        ProposalRow.closed_at.is_(None),
+        ProposalRow.id != judged.id,
     )
     meanwhile = session.scalars(query).one_or_none()
     if meanwhile is not None:
         meanwhile.closed_at, meanwhile.close_reason = now(), "withdrawn"
-        session.flush()  # before the other opens: at most one may be open
+        session.flush()  # before the other opens: a robot has at most one open
     row.undone_at = now()
     judged.closed_at = judged.close_reason = judged.verdict = judged.gate_allowed = judged.gate_reason = None
     experiment = load(session, row.experiment_id)
@@ -233,11 +239,15 @@ def undo(session: Session, feedback_id: int) -> Undone:
     return Undone(feedback_wire(row), proposal_wire(judged), withdrawn)
 
 
-def _must_stand_still(session: Session, experiment_id: int) -> None:
-    opened = select(ProposalRow.id).where(ProposalRow.experiment_id == experiment_id, ProposalRow.closed_at.is_(None))
+def _must_stand_still(session: Session, experiment_id: int, robot: int) -> None:
+    opened = select(ProposalRow.id).where(
+        ProposalRow.experiment_id == experiment_id, ProposalRow.robot == robot, ProposalRow.closed_at.is_(None)
+    )
     if (other := session.scalar(opened)) is not None:
         raise Conflict(f"proposal {other} is open", remedy="wait until it is judged, or close it")
-    moving = select(ExecutionRow.id).where(ExecutionRow.experiment_id == experiment_id, ExecutionRow.ended_at.is_(None))
+    moving = select(ExecutionRow.id).where(
+        ExecutionRow.experiment_id == experiment_id, ExecutionRow.robot == robot, ExecutionRow.ended_at.is_(None)
+    )
     if (running := session.scalar(moving)) is not None:
         raise Conflict(f"execution {running} still moves the robot", remedy="wait until it has ended")
 

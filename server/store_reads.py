@@ -51,12 +51,11 @@ class Reads:
         items, after = await self._page(query, models.ProposalRow.id, wire.proposal, cursor, limit, of=experiment_id)
         return schemas.ProposalPage(items=items, next_cursor=after)
 
-    async def open_proposal_of(self, experiment_id: int) -> schemas.Proposal | None:
-        """The proposal that waits for feedback."""
-        query = select(models.ProposalRow).where(
-            models.ProposalRow.experiment_id == experiment_id, models.ProposalRow.closed_at.is_(None)
-        )
-        return await self._maybe(query, wire.proposal)
+    async def open_proposals(self, experiment_id: int) -> list[schemas.Proposal]:
+        """The proposals that wait for feedback, at most one a robot, oldest first."""
+        row = models.ProposalRow
+        query = select(row).where(row.experiment_id == experiment_id, row.closed_at.is_(None)).order_by(row.number)
+        return await self._all(query, wire.proposal)
 
     async def undoable(self, experiment_id: int) -> schemas.Feedback | None:
         """The feedback that `undo_feedback` would take back now."""
@@ -102,12 +101,11 @@ class Reads:
         items, after = await self._page(query, models.ExecutionRow.id, wire.execution, cursor, limit, of=experiment_id)
         return schemas.ExecutionPage(items=items, next_cursor=after)
 
-    async def running_execution(self, experiment_id: int) -> schemas.Execution | None:
-        """The execution without an outcome."""
-        query = select(models.ExecutionRow).where(
-            models.ExecutionRow.experiment_id == experiment_id, models.ExecutionRow.ended_at.is_(None)
-        )
-        return await self._maybe(query, wire.execution)
+    async def running_executions(self, experiment_id: int) -> list[schemas.Execution]:
+        """The executions without an outcome, at most one a robot, oldest first."""
+        row = models.ExecutionRow
+        query = select(row).where(row.experiment_id == experiment_id, row.ended_at.is_(None)).order_by(row.id)
+        return await self._all(query, wire.execution)
 
     async def metrics(self, experiment_id: int, cursor: str | None = None, limit: int = 50) -> schemas.MetricPage:
         """Oldest first."""
@@ -169,12 +167,8 @@ class Reads:
 
         return await self._database.read(find)
 
-    async def _maybe(self, query: Select[T], convert: Callable[[T], W]) -> W | None:
-        def find(session: Session) -> W | None:
-            row = session.scalars(query).one_or_none()
-            return convert(row) if row is not None else None
-
-        return await self._database.read(find)
+    async def _all(self, query: Select[T], convert: Callable[[T], W]) -> list[W]:
+        return await self._database.read(lambda session: [convert(row) for row in session.scalars(query)])
 
     async def _page(
         self,

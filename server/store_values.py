@@ -29,6 +29,7 @@ class NewProposal:
     """A proposal to open. `state` is the task's vector; parameters are metres and radians, robot base frame.
 
     taken_at: seconds since the epoch. electorate: the trainers whose votes majority and unanimous ask for.
+    robot: index of the robot that saw the observation and would run the call.
     """
 
     experiment_id: int
@@ -44,6 +45,7 @@ class NewProposal:
     views: Sequence[NewView]
     purpose: Purpose = "training"
     electorate: Sequence[str] = ("local",)
+    robot: int = 0
 
 
 @dataclass(frozen=True)

@@ -25,6 +25,7 @@ def experiment(row: models.ExperimentRow) -> schemas.Experiment:
         teacher=row.teacher,
         teacher_settings=row.teacher_settings,
         lockstep=row.lockstep,
+        num_envs=row.num_envs,
         lifecycle=schemas.Lifecycle(row.lifecycle),
         phase=schemas.Phase.IDLE,
         halted=row.halted,
@@ -43,6 +44,7 @@ def proposal(row: models.ProposalRow) -> schemas.Proposal:
     return schemas.Proposal(
         id=row.id,
         experiment_id=row.experiment_id,
+        robot=row.robot,
         episode=row.episode.number,
         number=row.number,
         observation_id=row.observation.uid,
@@ -88,6 +90,7 @@ def execution(row: models.ExecutionRow) -> schemas.Execution:
         id=row.id,
         experiment_id=row.experiment_id,
         proposal_id=row.proposal_id,
+        robot=row.robot,
         skill=row.proposal.skill,
         parameters=_named(row.proposal),
         started_at=row.started_at,

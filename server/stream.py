@@ -61,7 +61,7 @@ class Outbox:
     def __init__(self, limit: int) -> None:
         self._limit = limit
         self._events: deque[str] = deque()
-        self._frames: dict[str, bytes] = {}
+        self._frames: dict[tuple[int, str], bytes] = {}
         self._awaiting_ack = False
         self._ready = asyncio.Event()
         self._overflowed = asyncio.Event()
@@ -74,9 +74,9 @@ class Outbox:
         self._events.append(text)
         self._ready.set()
 
-    def frame(self, camera: str, packed: bytes) -> None:
-        """Keep the newest frame of a camera; it takes the place in line of the one it replaces."""
-        self._frames[camera] = packed
+    def frame(self, robot: int, camera: str, packed: bytes) -> None:
+        """Keep the newest frame of a robot's camera; it takes the place in line of the one it replaces."""
+        self._frames[robot, camera] = packed
         self._ready.set()
 
     def acknowledged(self) -> None:
@@ -108,6 +108,8 @@ class Outbox:
 class Rooms:
     """Who watches which experiment. The hub publishes here (its `Publisher`); used from the event loop only."""
 
+    shows_frames = True
+
     def __init__(self, *, queue_limit: int) -> None:
         self._queue_limit = queue_limit
         self._rooms: dict[int, set[Outbox]] = {}
@@ -126,7 +128,7 @@ class Rooms:
         if room:
             packed = pack(header, jpeg)
             for outbox in room:
-                outbox.frame(header.camera, packed)
+                outbox.frame(header.robot, header.camera, packed)
 
     @contextmanager
     def join(self, experiment_id: int) -> Iterator[Outbox]:

@@ -36,13 +36,19 @@ class WorkerError(Exception):
 
 
 class WorkerDied(WorkerError):
-    """The process is gone, and with it whatever it was doing. `worker` is its name."""
+    """The process is gone, and with it whatever it was doing. `worker` is its name, `pid` None where there was none."""
 
     def __init__(
-        self, worker: str, message: str, *, remedy: str = "see the server's log for what it said last"
+        self,
+        worker: str,
+        message: str,
+        *,
+        pid: int | None = None,
+        remedy: str = "see the server's log for what it said last",
     ) -> None:
         super().__init__(message, remedy=remedy)
         self.worker = worker
+        self.pid = pid
 
 
 class WorkerTimeout(WorkerDied):
@@ -159,6 +165,7 @@ class Worker:
             raise WorkerTimeout(
                 self.name,
                 f"the {self.name} worker did not answer {command!r} within {deadline:g} s and was killed",
+                pid=self.pid,
                 remedy="if the machine is just slow, raise the deadline in the settings",
             ) from None
 
@@ -230,7 +237,7 @@ class Worker:
             future.set_result(reply["result"])
 
     def _obituary(self) -> WorkerDied:
-        return WorkerDied(self.name, f"the {self.name} worker {self._death}")
+        return WorkerDied(self.name, f"the {self.name} worker {self._death}", pid=self.pid)
 
     def _bury(self) -> None:
         """Say that the process is gone: once, to everyone who waits."""

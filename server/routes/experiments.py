@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Body, Request, Response
+from fastapi import APIRouter, Body, Query, Request, Response
 
 from server.idempotency import IdempotencyKey, once
 from server.routes.dependencies import Cursor, Id, Limit, Running, errors
@@ -93,9 +93,13 @@ async def finish_experiment(service: Running, experiment_id: Id) -> Experiment:
 
 
 @router.post("/{experiment_id}/reset", responses=VERBS)
-async def reset_episode(service: Running, experiment_id: Id) -> Experiment:
-    """End the episode and begin a new one from a fresh start of the task."""
-    return await service.hub.act(experiment_id, "reset")
+async def reset_episode(
+    service: Running,
+    experiment_id: Id,
+    robot: Annotated[int | None, Query(ge=0, description="which robot, from 0; left out: every one")] = None,
+) -> Experiment:
+    """End the episode of one robot, or of every one, and begin a new one from a fresh start of the task."""
+    return await service.hub.act(experiment_id, "reset", robot=robot)
 
 
 @router.post("/{experiment_id}/halt", responses=VERBS)

@@ -39,6 +39,7 @@ class Robot:
         self._frames = frames
         self._adapter: Adapter | None = None
         self._images: Images
+        self._index = 0
         self._executed = 0
 
     @property
@@ -48,8 +49,14 @@ class Robot:
             raise Refusal("the robot isn't built yet", remedy="send `build` first")
         return self._adapter
 
-    def build(self, *, adapter: str, task: str, settings: dict[str, Any], data_dir: str) -> dict[str, Any]:
-        """Build the adapter; the slow part of a start, because simulators are imported here."""
+    def build(
+        self, *, adapter: str, task: str, settings: dict[str, Any], data_dir: str, robot: int = 0
+    ) -> dict[str, Any]:
+        """Build the adapter; the slow part of a start, because simulators are imported here.
+
+        robot: which one of the experiment's this is, from 0.
+        """
+        self._index = robot
         factory = registry.adapter(adapter)
         self._images = Images(Path(data_dir))
         self._adapter = factory(task, factory.settings.model_validate(settings))
@@ -71,25 +78,39 @@ class Robot:
         return {"overlays": {camera: dataclasses.asdict(overlay) for camera, overlay in drawn.items()}}
 
     def execute(
-        self, *, proposal_id: int | None, execution_id: int | None, digest: str, skill: str, parameters: list[float]
+        self,
+        *,
+        proposal_id: int | None,
+        execution_id: int | None,
+        digest: str,
+        skill: str,
+        parameters: list[float],
+        robot: int = 0,
+        video: bool = True,
     ) -> dict[str, Any]:
-        """Run an approved skill to its end, streaming pictures.
+        """Run an approved skill to its end, streaming pictures if there is to be a `video`.
 
-        The last door before a motion: it opens once per proposal, only for the parameters that were approved, and not
-        while a stop is latched. Times in the reply are CLOCK_MONOTONIC, which all processes of a machine share.
+        The last door before a motion: it opens once per proposal, only for the robot and the parameters that were
+        approved, and not while a stop is latched. Times in the reply are CLOCK_MONOTONIC, which all processes of a
+        machine share.
         """
         call = SkillCall(skill, tuple(float(p) for p in parameters))
         if proposal_id is None or execution_id is None:
             raise Refusal("a call without a proposal never runs", remedy="have it proposed and approved")
+        if robot != self._index:
+            raise Refusal(
+                f"this call was approved for robot {robot + 1}, and this is robot {self._index + 1}",
+                remedy="have it proposed for this robot",
+            )
         if call.digest != digest:
             raise Refusal("these are not the approved parameters", remedy="have exactly these parameters approved")
         if proposal_id <= self._executed:
             raise Refusal(f"proposal {proposal_id} has had its execution", remedy="have it proposed again")
         self._must_be_armed()
         self._executed = proposal_id
-        video = _Video(self.adapter, self._frames, execution_id)
+        pictures = _Video(self.adapter, self._frames if video else None, execution_id)
         try:
-            result = self.adapter.execute(call, should_stop=self._latch.stopped, on_step=video.step)
+            result = self.adapter.execute(call, should_stop=self._latch.stopped, on_step=pictures.step)
         except AdapterError:
             raise
         except Exception as error:
@@ -103,9 +124,9 @@ class Robot:
             "low_level_steps": result.low_level_steps,
             "task_success": self.adapter.success(),
             "violations": [dataclasses.asdict(v) for v in result.violations],
-            "first_set_point_at": video.first,
-            "last_set_point_at": video.last,
-            "frames": video.sent,
+            "first_set_point_at": pictures.first,
+            "last_set_point_at": pictures.last,
+            "frames": pictures.sent,
         }
 
     def rearm(self, *, upto: int) -> dict[str, Any]:
@@ -137,9 +158,12 @@ class Robot:
 
 
 class _Video:
-    """Pictures of a running skill: at most one after any set-point, so that stop is looked at between any two."""
+    """Pictures of a running skill: at most one after any set-point, so that stop is looked at between any two.
 
-    def __init__(self, adapter: Adapter, frames: FrameSender, execution_id: int) -> None:
+    Without frames nobody watches, and none is rendered.
+    """
+
+    def __init__(self, adapter: Adapter, frames: FrameSender | None, execution_id: int) -> None:
         self._adapter = adapter
         self._frames = frames
         self._execution = execution_id
@@ -153,7 +177,7 @@ class _Video:
         self.last = time.monotonic()
         if self.first is None:
             self.first = self.last
-        if self.last < self._due:
+        if self._frames is None or self.last < self._due:
             return
         self._due = self.last + FRAME_INTERVAL
         cameras = self._adapter.info.cameras

@@ -29,6 +29,7 @@ E = TypeVar("E")
 class Recorder:
     """A `Publisher` that keeps everything and lets tests wait for what they need."""
 
+    shows_frames: bool = True
     events: list[StreamEvent] = field(default_factory=list)
     frames: list[tuple[FrameHeader, bytes]] = field(default_factory=list)
     _changed: asyncio.Event = field(default_factory=asyncio.Event)

@@ -126,7 +126,7 @@ async def test_modes_timeout_pause_and_reset(tmp_path: Path) -> None:
         await s.hub.idle(experiment.id)
         view = await s.hub.view(experiment.id)
         assert view.phase is Phase.IDLE
-        assert (await s.store.open_proposal_of(experiment.id)) is None
+        assert await s.store.open_proposals(experiment.id) == []
         at = s.now
         await s.hub.act(experiment.id, "resume")
         resumed = await s.proposal(at)

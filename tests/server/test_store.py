@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from pydantic import BaseModel
 
 from robot_adapters.base import SafetyViolation, SkillCall
 from server.schemas import CloseReason, ExecutionOutcome, ExperimentUpdate, Lifecycle, Mode, Phase, Verdict
@@ -82,7 +81,7 @@ async def test_a_proposal_is_kept_with_the_pictures_it_was_drawn_on(store: Store
         (v.camera, v.image, v.overlay) for v in asked.views
     ]
     assert proposal.views[0].url == f"/api/v1/proposals/{proposal.id}/images/left"
-    assert await store.proposal(proposal.id) == await store.open_proposal_of(experiment_id) == proposal
+    assert await store.open_proposals(experiment_id) == [await store.proposal(proposal.id)] == [proposal]
 
 
 async def test_parameters_of_any_float_keep_their_digest(store: Store) -> None:
@@ -130,7 +129,7 @@ async def test_leaving_closes_the_open_proposal(store: Store, verb: str, reason:
     proposal = await opened(store, experiment_id)
     await store.transition(experiment_id, verb)  # type: ignore[arg-type]
     assert (await store.proposal(proposal.id)).close_reason == reason
-    assert await store.open_proposal_of(experiment_id) is None
+    assert await store.open_proposals(experiment_id) == []
     with pytest.raises(Conflict):
         await store.undo_feedback((await store.submit_feedback(proposal.id, click())).feedback.id)
 
@@ -142,7 +141,7 @@ async def test_an_approved_call_runs_once(store: Store) -> None:
     decision, execution = await begun(store, proposal.id)
     assert decision.allowed
     assert (execution.skill, execution.parameters) == (proposal.skill, proposal.parameters)
-    assert await store.running_execution(experiment_id) == execution
+    assert await store.running_executions(experiment_id) == [execution]
     again, none = await begun(store, proposal.id)
     assert (again.allowed, none) == (False, None)
     with pytest.raises(Conflict, match="still moves"):
@@ -303,7 +302,7 @@ async def test_recovery_settles_what_was_left_behind(store: Store) -> None:
         assert (await store.experiment(experiment_id)).lifecycle is Lifecycle.PAUSED
     assert (await store.experiment(halted)).halted
     assert (await store.execution(execution.id)).outcome is ExecutionOutcome.INTERRUPTED
-    assert await store.running_execution(moving) is None
+    assert await store.running_executions(moving) == []
     assert (await store.proposal(unjudged.id)).close_reason is CloseReason.INTERRUPTED
     assert (await store.evaluation(evaluation.id)).rollouts == 3
     assert (await begun(store, approved.id))[1] is None
@@ -396,5 +395,4 @@ async def test_what_is_not_there_is_said(store: Store) -> None:
         with pytest.raises(NotFound) as caught:
             await question
         assert caught.value.remedy
-    answer: BaseModel | None = await store.open_proposal_of(99)
-    assert answer is None
+    assert await store.open_proposals(99) == []

@@ -119,7 +119,7 @@ async def test_undo_reopens_the_judged_proposal_and_withdraws_the_next(store: St
     assert undone.reopened == judged
     assert undone.withdrawn is not None
     assert (undone.withdrawn.id, undone.withdrawn.close_reason) == (following.id, CloseReason.WITHDRAWN)
-    assert await store.open_proposal_of(experiment_id) == judged
+    assert await store.open_proposals(experiment_id) == [judged]
     assert await store.undoable(experiment_id) is None
     assert await store.labels(experiment_id) == []
     assert set((await _counted(store, experiment_id)).values()) == {0}
@@ -141,7 +141,7 @@ async def test_a_retry_of_an_undone_click_does_not_bring_it_back(store: Store) -
     again = await store.submit_feedback(proposal.id, click(1, "one-click"))
     assert again.duplicate
     assert again.feedback.undone_at is not None
-    assert await store.open_proposal_of(experiment_id) == proposal
+    assert await store.open_proposals(experiment_id) == [proposal]
 
 
 async def test_undo_goes_back_over_a_time_out_but_not_over_a_motion_or_a_new_look(store: Store) -> None:
@@ -215,7 +215,7 @@ async def test_undo_and_execution_race_and_exactly_one_wins(store: Store) -> Non
         else:
             winners.add("undo")
             assert (decision.allowed, execution) == (False, None)
-            assert await store.open_proposal_of(experiment_id) == proposal
+            assert await store.open_proposals(experiment_id) == [proposal]
             await store.close_proposal(proposal.id, CloseReason.WITHDRAWN)
     assert winners == {"execution", "undo"}
     assert (await store.experiment(experiment_id)).counters.executions == 6

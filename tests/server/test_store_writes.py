@@ -123,7 +123,7 @@ async def test_a_full_database_says_so_and_goes_on_when_there_is_room(sqlite_sto
     with pytest.raises(Full) as caught:
         await store.add_event(experiment_id, "ballast", {"text": "x" * 200_000})
     assert "free space" in caught.value.remedy
-    assert (await store.open_proposal_of(experiment_id)) == proposal  # reads go on
+    assert (await store.open_proposals(experiment_id)) == [proposal]  # reads go on
     stored = (await store.events(experiment_id, limit=500)).items
     with pytest.raises(Full):
         await store.add_event(experiment_id, "ballast", {"text": "x" * 200_000})

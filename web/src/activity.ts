@@ -1,5 +1,6 @@
 // What is going on now, in words.
-import { isOpen, pendingFor, type TrainerState, wordFor } from "./state";
+import { isOpen } from "./robots";
+import { pendingFor, type TrainerState, wordFor } from "./state";
 
 export interface Activity {
   tone: "you" | "moving" | "busy" | "still" | "stopped";

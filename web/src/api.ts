@@ -300,7 +300,7 @@ export interface paths {
         put?: never;
         /**
          * Reset Episode
-         * @description End the episode and begin a new one from a fresh start of the task.
+         * @description End the episode of one robot, or of every one, and begin a new one from a fresh start of the task.
          */
         post: operations["reset_episode"];
         delete?: never;
@@ -1360,6 +1360,11 @@ export interface components {
             experiment_id: number;
             /** Proposal Id */
             proposal_id: number;
+            /**
+             * Robot
+             * @description which robot of the experiment, from 0
+             */
+            robot: number;
             /** Skill */
             skill: string;
             /** Parameters */
@@ -1460,6 +1465,8 @@ export interface components {
             adapter_settings: {
                 [key: string]: unknown;
             };
+            /** Num Envs */
+            num_envs: number;
             /** Seed */
             seed: number;
             mode: components["schemas"]["Mode"];
@@ -1556,6 +1563,12 @@ export interface components {
             adapter_settings: {
                 [key: string]: unknown;
             };
+            /**
+             * Num Envs
+             * @description simulated robots at once, each in a process; they share the learner
+             * @default 1
+             */
+            num_envs: number;
             /**
              * Seed
              * @default 0
@@ -1715,6 +1728,12 @@ export interface components {
          * @description JSON header of a binary frame: `[u32 big-endian header length][this][JPEG]`.
          */
         FrameHeader: {
+            /**
+             * Robot
+             * @description which robot of the experiment, from 0
+             * @default 0
+             */
+            robot: number;
             /** Camera */
             camera: string;
             /** Width */
@@ -1921,6 +1940,11 @@ export interface components {
             /** Experiment Id */
             experiment_id: number;
             /**
+             * Robot
+             * @description which robot of the experiment, from 0
+             */
+            robot: number;
+            /**
              * Episode
              * @description number of the episode in its experiment, from 1
              */
@@ -2063,10 +2087,20 @@ export interface components {
              */
             type: "snapshot";
             experiment: components["schemas"]["Experiment"];
-            /** @description the open proposal, if any */
+            /** @description the oldest open proposal, if any */
             proposal: components["schemas"]["Proposal"] | null;
-            /** @description the running execution, if any */
+            /**
+             * Proposals
+             * @description every open proposal, one a robot at most, oldest first
+             */
+            proposals: components["schemas"]["Proposal"][];
+            /** @description the oldest running execution, if any */
             execution: components["schemas"]["Execution"] | null;
+            /**
+             * Executions
+             * @description every running execution, oldest first
+             */
+            executions: components["schemas"]["Execution"][];
             /** @description the newest feedback, while it can be undone */
             undoable: components["schemas"]["Feedback"] | null;
             /**
@@ -2209,6 +2243,11 @@ export interface components {
              * @enum {string}
              */
             worker: "robot" | "learner";
+            /**
+             * Robot
+             * @description which robot, from 0; null for the learner
+             */
+            robot: number | null;
             /**
              * Status
              * @enum {string}
@@ -3304,7 +3343,10 @@ export interface operations {
     };
     reset_episode: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description which robot, from 0; left out: every one */
+                robot?: number | null;
+            };
             header?: never;
             path: {
                 experiment_id: number;

@@ -95,6 +95,8 @@ export class Session {
     }
   }
 
+  watch = (robot: number | null): void => this.dispatch({ kind: "watch", robot });
+
   dismiss = (id: number): void => this.dispatch({ kind: "dismiss", id });
 
   private async guard(answer: ReturnType<typeof http.act>): Promise<void> {

@@ -1,5 +1,6 @@
 // All a trainer's page knows, in one reducer fed by the stream. Pure; the effects are in session.ts.
 import type { Click } from "./outbox";
+import { isOpen, type RobotState, STILL, saying, shownRobot } from "./robots";
 import type { Connection } from "./stream";
 import type {
   Evaluation,
@@ -25,12 +26,17 @@ export interface TrainerState {
   ready: boolean;
   bootId: string | null;
   experiment: Experiment | null;
-  /** The newest proposal; open while `closed_at` is absent. */
+  robots: RobotState[];
+  /** The robot that someone wants to see; null: whichever is to be judged, or moves. */
+  chosen: number | null;
+  /** The robot that is shown, and what is known of it. */
+  shown: number;
   proposal: Proposal | null;
   execution: Execution | null;
-  /** The execution whose video covers the stills; it stays until a newer proposal brings newer stills. */
   live: number | null;
   undoable: Feedback | null;
+  /** The robot whose motion ends that; null: any may. */
+  undoableOn: number | null;
   /** Clicks that aren't acknowledged yet. */
   pending: Click[];
   /** The newest acknowledged click on the current proposal; it may stay open for other trainers. */
@@ -59,6 +65,7 @@ export type Action =
   | { kind: "metrics"; points: MetricPoint[] }
   | { kind: "evaluation"; evaluation: Evaluation | null }
   | { kind: "backdrop"; proposal: Proposal | null }
+  | { kind: "watch"; robot: number | null }
   | { kind: "stopping"; stopping: TrainerState["stopping"] }
   | { kind: "notice"; tone: Notice["tone"]; text: string }
   | { kind: "dismiss"; id: number }
@@ -69,10 +76,14 @@ export const initial: TrainerState = {
   ready: false,
   bootId: null,
   experiment: null,
+  robots: [STILL],
+  chosen: null,
+  shown: 0,
   proposal: null,
   execution: null,
   live: null,
   undoable: null,
+  undoableOn: null,
   pending: [],
   judged: null,
   curve: [],
@@ -85,6 +96,13 @@ export const initial: TrainerState = {
 };
 
 export function reduce(state: TrainerState, action: Action): TrainerState {
+  const next = step(state, action);
+  if (next === state) return state;
+  const shown = shownRobot(next.robots, next.chosen, next.shown, !next.experiment?.teacher);
+  return { ...next, shown, ...(next.robots[shown] ?? STILL) };
+}
+
+function step(state: TrainerState, action: Action): TrainerState {
   switch (action.kind) {
     case "event":
       return onEvent(state, action.event);
@@ -99,7 +117,10 @@ export function reduce(state: TrainerState, action: Action): TrainerState {
     case "evaluation":
       return state.evaluation ? state : withEvaluation(state, action.evaluation, null);
     case "backdrop":
-      return state.proposal ? state : { ...state, proposal: action.proposal };
+      if (!action.proposal || state.robots.some(({ proposal }) => proposal)) return state;
+      return withRobot(state, action.proposal.robot, { proposal: action.proposal });
+    case "watch":
+      return { ...state, chosen: action.robot };
     case "stopping":
       return { ...state, stopping: state.experiment?.halted ? "no" : action.stopping };
     case "notice":
@@ -123,13 +144,12 @@ function onEvent(state: TrainerState, event: StreamEvent): TrainerState {
     case "experiment_changed":
       return withExperiment(state, event.experiment);
     case "proposal_opened":
-      return { ...state, proposal: event.proposal, judged: null, live: state.execution ? state.live : null };
+      return onOpened(state, event.proposal);
     case "proposal_closed":
-      return event.proposal.id === state.proposal?.id ? withClosed(state, event.proposal) : state;
+      return withClosed(state, event.proposal);
     case "feedback_stored":
       return {
-        ...state,
-        undoable: event.undoable && canStillUndo(state.experiment) ? event.feedback : state.undoable,
+        ...(event.undoable && canStillUndo(state.experiment) ? withUndoable(state, event.feedback) : state),
         pending: without(state.pending, event.feedback.click_id),
       };
     case "feedback_undone":
@@ -139,13 +159,16 @@ function onEvent(state: TrainerState, event: StreamEvent): TrainerState {
         undoable: state.undoable?.id === event.feedback.id ? null : state.undoable,
       };
     case "execution_started":
-      return { ...state, execution: event.execution, live: event.execution.id, undoable: null };
+      return withRobot(endUndo(state, event.execution.robot), event.execution.robot, {
+        execution: event.execution,
+        live: event.execution.id,
+      });
     case "execution_ended":
       return onExecutionEnded(state, event.execution, event.violations);
     case "metrics_added":
       return { ...state, curve: addMetric(state.curve, event.point) };
     case "worker_changed":
-      return onWorker(state, event.worker, event.status, event.detail);
+      return onWorker(state, event);
     case "evaluation_changed":
       return withEvaluation(state, event.evaluation, event.done);
     case "acknowledged":
@@ -161,24 +184,50 @@ type SnapshotEvent = Extract<StreamEvent, { type: "snapshot" }>;
 
 function onSnapshot(state: TrainerState, event: SnapshotEvent): TrainerState {
   const restarted = state.bootId !== null && state.bootId !== event.boot_id;
-  const execution = event.execution ?? null;
-  const last = state.proposal;
-  const closed: Proposal | null =
-    last && isOpen(last) ? { ...last, closed_at: event.server_time, close_reason: "interrupted" } : last;
+  const robots = Array.from({ length: event.experiment.num_envs }, (_, robot): RobotState => {
+    const { proposal: last, live } = state.robots[robot] ?? STILL;
+    const open = event.proposals.find((proposal) => proposal.robot === robot);
+    const execution = event.executions.find((each) => each.robot === robot) ?? null;
+    const closed: Proposal | null =
+      last && isOpen(last) ? { ...last, closed_at: event.server_time, close_reason: "interrupted" } : last;
+    return { proposal: open ?? closed, execution, live: execution?.id ?? (open ? null : live) };
+  });
   const next: TrainerState = {
     ...state,
     ready: true,
     bootId: event.boot_id,
-    proposal: event.proposal ?? closed,
-    execution,
-    live: execution?.id ?? (event.proposal ? null : state.live),
+    robots,
     undoable: event.undoable ?? null,
+    undoableOn: null,
     judged: null, // may have been undone meanwhile; a second click on the same proposal is the service's to refuse
   };
   const synced = withExperiment(next, event.experiment);
   return restarted
     ? withNotice(synced, "info", "The service restarted. This page is up to date again.")
     : synced;
+}
+
+function withRobot(state: TrainerState, robot: number, change: Partial<RobotState>): TrainerState {
+  const robots = [...state.robots];
+  robots[robot] = { ...(robots[robot] ?? STILL), ...change };
+  return { ...state, robots };
+}
+
+function onOpened(state: TrainerState, proposal: Proposal): TrainerState {
+  const { execution, live } = state.robots[proposal.robot] ?? STILL;
+  const next = withRobot(state, proposal.robot, { proposal, live: execution ? live : null });
+  return { ...next, judged: state.judged?.proposalId === proposal.id ? null : state.judged };
+}
+
+/** The click that an undo would take back, and the robot that it is about, as long as that is known. */
+function withUndoable(state: TrainerState, undoable: Feedback): TrainerState {
+  const on = state.robots.findIndex(({ proposal }) => proposal?.id === undoable.proposal_id);
+  return { ...state, undoable, undoableOn: on >= 0 ? on : null };
+}
+
+/** This robot's scene isn't the one any more on which a click on its proposal was made. */
+function endUndo(state: TrainerState, robot: number): TrainerState {
+  return state.undoableOn === null || state.undoableOn === robot ? { ...state, undoable: null } : state;
 }
 
 function withExperiment(state: TrainerState, experiment: Experiment): TrainerState {
@@ -195,33 +244,41 @@ function withExperiment(state: TrainerState, experiment: Experiment): TrainerSta
 /** As the service rules: undo is for an experiment that runs, on the scene that was judged. */
 function canStillUndo(experiment: Experiment | null): boolean {
   if (experiment?.lifecycle !== "running" || experiment.halted) return false;
+  if (experiment.num_envs > 1) return true; // the phase says nothing of a single robot
   return experiment.phase !== "starting" && experiment.phase !== "observing";
 }
 
 /** A proposal closed without a verdict: a reset or a death ends its episode, and an undo has nothing more to undo. */
 function withClosed(state: TrainerState, proposal: Proposal): TrainerState {
-  const dropped = proposal.close_reason === "withdrawn" || proposal.close_reason === "interrupted";
-  return { ...state, proposal, undoable: dropped ? null : state.undoable };
+  const { robot, close_reason: reason } = proposal;
+  if (proposal.id !== state.robots[robot]?.proposal?.id) return state;
+  const dropped = reason === "withdrawn" || reason === "interrupted";
+  return withRobot(dropped ? endUndo(state, robot) : state, robot, { proposal });
 }
 
 function onExecutionEnded(state: TrainerState, execution: Execution, violations: string[]): TrainerState {
-  let next: TrainerState = {
-    ...state,
-    execution: state.execution?.id === execution.id ? null : state.execution,
-  };
-  if (execution.task_success) next = withNotice(next, "good", "Task solved.");
-  for (const violation of violations) next = withNotice(next, "error", `Safety violation: ${violation}`);
+  const { robot } = execution;
+  const who = saying(state.robots, robot);
+  let next = state;
+  if (state.robots[robot]?.execution?.id === execution.id)
+    next = withRobot(state, robot, { execution: null });
+  if (execution.task_success) next = withNotice(next, "good", `${who}Task solved.`);
+  for (const violation of violations)
+    next = withNotice(next, "error", `${who}Safety violation: ${violation}`);
   if (execution.outcome === "interrupted")
     next = withNotice(
       next,
       "warning",
-      `The ${execution.skill} was interrupted. It won't be repeated by itself.`,
+      `${who}The ${execution.skill} was interrupted. It won't be repeated by itself.`,
     );
   return next;
 }
 
-function onWorker(state: TrainerState, worker: string, status: string, detail: string): TrainerState {
-  const name = worker === "robot" ? "The robot's process" : "The learner's process";
+type WorkerEvent = Extract<StreamEvent, { type: "worker_changed" }>;
+
+function onWorker(state: TrainerState, { worker, robot, status, detail }: WorkerEvent): TrainerState {
+  const of = state.robots.length > 1 ? `Robot ${(robot ?? 0) + 1}` : "The robot";
+  const name = worker === "robot" ? `${of}'s process` : "The learner's process";
   if (status === "died")
     return withNotice(state, "warning", `${name} died and is being restarted. ${detail}`.trim());
   if (status === "restarted") return withNotice(state, "info", `${name} is back. ${detail}`.trim());
@@ -281,10 +338,6 @@ function without(clicks: Click[], clickId: string): Click[] {
   return clicks.some((click) => click.click_id === clickId)
     ? clicks.filter((click) => click.click_id !== clickId)
     : clicks;
-}
-
-export function isOpen(proposal: Proposal): boolean {
-  return !proposal.closed_at;
 }
 
 export function wordFor(value: number): string {

@@ -290,6 +290,7 @@ describe("what is going on", () => {
     const died = having(snapshot(), {
       type: "worker_changed",
       worker: "robot",
+      robot: 0,
       status: "died",
       detail: "signal 9",
     });

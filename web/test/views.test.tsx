@@ -20,6 +20,7 @@ function Page({ images, current }: { images: ImageStore; current: Proposal }) {
       failed={failed}
       overlay={drawn === current}
       accepting={false}
+      robot={0}
       live={null}
       moving={false}
       skill={drawn === current ? current.skill : null}

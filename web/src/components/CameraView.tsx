@@ -12,6 +12,8 @@ export interface CameraViewProps {
   skill: string | null;
   overlay: boolean;
   judged: boolean;
+  /** The robot that is shown; pictures of another are none of it. */
+  robot: number;
   live: number | null;
   /** Whether the robot moves; after it the last picture of the video stays until there is a new still. */
   moving: boolean;
@@ -44,6 +46,7 @@ export function CameraView(props: CameraViewProps) {
   }, [live]);
 
   const onFrame = useEffectEvent((header: FrameHeader, frame: ImageBitmap) => {
+    if (header.robot !== props.robot) return;
     shownExecution.current = header.execution_id ?? live;
     draw(video.current, frame, header.width, header.height);
   });

@@ -9,6 +9,7 @@ import { Choice, Field } from "./Field";
 type Draft = Pick<ExperimentCreate, "name" | "task" | "adapter" | "algorithm" | "mode"> & {
   preset: string;
   seed: string;
+  num_envs: string;
   teacher: string;
 };
 
@@ -23,14 +24,21 @@ function firstDraft(catalogue: http.Catalogue, count: number): Draft {
     algorithm: algorithm?.name ?? "",
     preset: "",
     seed: "0",
+    num_envs: "1",
     mode: "execute_approved",
     teacher: "",
   };
 }
 
 function bodyOf(draft: Draft): ExperimentCreate {
-  const { preset, seed, teacher, ...rest } = draft;
-  const body = { ...rest, preset: preset || null, seed: Number(seed), teacher: teacher || null };
+  const { preset, seed, num_envs, teacher, ...rest } = draft;
+  const body = {
+    ...rest,
+    preset: preset || null,
+    seed: Number(seed),
+    num_envs: Number(num_envs),
+    teacher: teacher || null,
+  };
   // Everything left out has its default in the service.
   return body as ExperimentCreate;
 }
@@ -167,6 +175,14 @@ function NewForm({
         numeric
         error={error("seed")}
         onChange={(seed) => set({ seed })}
+      />
+      <Field
+        label="Robots at once"
+        name="num_envs"
+        value={draft.num_envs}
+        numeric
+        error={error("num_envs")}
+        onChange={(num_envs) => set({ num_envs })}
       />
       <Choice
         wide

@@ -44,7 +44,7 @@ export function TrainerTitle({ experiment, session, onAsk }: TrainerTitleProps) 
   };
   const facts = [
     experiment.task,
-    experiment.adapter,
+    experiment.num_envs > 1 ? `${experiment.num_envs} robots on ${experiment.adapter}` : experiment.adapter,
     experiment.algorithm,
     experiment.preset,
     `seed ${experiment.seed}`,

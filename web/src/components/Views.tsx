@@ -5,17 +5,19 @@ import type { ImageStore } from "../images";
 import type { Proposal } from "../wire";
 import { CameraView } from "./CameraView";
 
-/** The proposal whose pictures are on the screen: `proposal` once they are decoded, until then the one before. */
+/** The proposal whose pictures are on the screen: `proposal` once they are decoded, until then the one before.
+ * Those of `next` are fetched too. */
 export function useDrawn(
   images: ImageStore,
   proposal: Proposal | null,
+  next: Proposal | null = null,
 ): { drawn: Proposal | null; failed: boolean } {
   const version = useSyncExternalStore(images.subscribe, images.snapshot);
   const before = useRef<Proposal | null>(null);
   // biome-ignore lint/correctness/useExhaustiveDependencies: a new version may mean that a failed picture is due again
   useEffect(() => {
-    for (const view of proposal?.views ?? []) images.want(view);
-  }, [images, proposal, version]);
+    for (const view of [...(next?.views ?? []), ...(proposal?.views ?? [])]) images.want(view);
+  }, [images, proposal, next, version]);
   const ready = proposal?.views.every((view) => images.get(view.image)) ?? false;
   const drawn = ready ? proposal : before.current;
   useLayoutEffect(() => {
@@ -32,6 +34,7 @@ export interface ViewsProps {
   overlay: boolean;
   /** Whether a press counts now. */
   accepting: boolean;
+  robot: number;
   live: number | null;
   moving: boolean;
   skill: string | null;
@@ -69,6 +72,7 @@ export function Views(props: ViewsProps) {
           skill={props.skill}
           overlay={overlay}
           judged={Boolean(drawn.closed_at)}
+          robot={props.robot}
           live={live}
           moving={props.moving}
           frames={props.frames}

@@ -10,11 +10,13 @@ import { Header } from "../components/Header";
 import { JudgeBar } from "../components/JudgeBar";
 import { Notices } from "../components/Notices";
 import { ProblemCard } from "../components/ProblemCard";
+import { RobotPicker } from "../components/RobotPicker";
 import { SidePanel } from "../components/SidePanel";
 import { StopButton } from "../components/StopButton";
 import { TrainerTitle } from "../components/TrainerTitle";
 import { useDrawn, Views } from "../components/Views";
 import { ImageStore } from "../images";
+import { queueOf } from "../robots";
 import { useSession } from "../session";
 import { chosenFor, overlayWanted } from "../state";
 import { useJudging } from "../useJudging";
@@ -23,7 +25,8 @@ export function TrainerPage({ id }: { id: number }) {
   const { state, session } = useSession(id);
   const [question, setQuestion] = useState<Question | null>(null);
   const images = useMemo(() => new ImageStore(), []);
-  const { drawn, failed } = useDrawn(images, state.proposal);
+  const next = queueOf(state.robots).find(({ id }) => id !== state.proposal?.id) ?? null;
+  const { drawn, failed } = useDrawn(images, state.proposal, next);
   const { experiment, proposal, undoable, live } = state;
 
   // An overlay is shown only on its own pictures, so nothing is drawn for a proposal whose pictures aren't here.
@@ -52,6 +55,14 @@ export function TrainerPage({ id }: { id: number }) {
         <TrainerTitle experiment={experiment} session={session} onAsk={setQuestion} />
         <div className="trainer">
           <div className="stage">
+            {state.robots.length > 1 && (
+              <RobotPicker
+                robots={state.robots}
+                chosen={state.chosen}
+                shown={state.shown}
+                onChoose={session.watch}
+              />
+            )}
             <Views
               images={images}
               frames={session.frames}
@@ -59,6 +70,7 @@ export function TrainerPage({ id }: { id: number }) {
               failed={failed}
               overlay={overlay}
               accepting={accepting}
+              robot={state.shown}
               live={live}
               moving={state.execution !== null}
               skill={state.execution?.skill ?? (overlay ? drawn.skill : null)}

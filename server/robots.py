@@ -1,0 +1,127 @@
+"""The robots of one experiment, as their worker processes run them, and the emergency stops that all of them heed."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from robot_adapters.base import SkillCall
+from server.crew_values import Done, Picture, Seen
+from server.messages import FrameHeader
+from server.post import QUICK, OnChange, Post
+from server.schemas import Experiment, Overlay, Proposal
+from server.settings import Settings
+from server.worker import Worker, WorkerDied
+
+OnFrame = Callable[[FrameHeader, bytes], None]
+
+
+@dataclass
+class Stops:
+    """The emergency stops of one experiment, numbered from 1: which was the newest, and up to which they are lifted."""
+
+    newest: int = 0
+    lifted: int = 0
+
+    @property
+    def latched(self) -> bool:
+        """Whether nothing may move."""
+        return self.newest > self.lifted
+
+
+class Robot:
+    """One robot. Its commands raise WorkerDied if its worker is or goes away."""
+
+    def __init__(
+        self,
+        index: int,
+        experiment: Experiment,
+        settings: Settings,
+        stops: Stops,
+        *,
+        on_frame: OnFrame | None,
+        on_change: OnChange,
+    ) -> None:
+        self.index = index
+        self._experiment = experiment
+        self._settings = settings
+        self._stops = stops
+        self._show = on_frame
+        self.post = Post(
+            "robot",
+            self._build,
+            on_change,
+            name="robot" if experiment.num_envs == 1 else f"robot {index + 1}",
+            robot=index,
+            on_frame=None if on_frame is None else self._take_frame,
+        )
+
+    async def reset(self, seed: int) -> Seen:
+        """Start an episode."""
+        return _seen(await self._ask("reset", seed=seed))
+
+    async def observe(self) -> Seen:
+        """Look, without moving."""
+        return _seen(await self._ask("observe", QUICK))
+
+    async def overlay(self, call: SkillCall) -> dict[str, Overlay]:
+        """The call drawn for every camera of the newest observation."""
+        reply = await self._ask("overlay", QUICK, skill=call.skill, parameters=list(call.parameters))
+        return {camera: Overlay(**drawn) for camera, drawn in reply["overlays"].items()}
+
+    async def execute(self, proposal: Proposal, execution_id: int, call: SkillCall) -> Done:
+        """Run an approved call. The worker compares it with the robot and the digest that were approved."""
+        reply = await self._ask(
+            "execute",
+            robot=proposal.robot,
+            proposal_id=proposal.id,
+            execution_id=execution_id,
+            digest=proposal.digest,
+            skill=call.skill,
+            parameters=list(call.parameters),
+            video=self._show is not None,
+        )
+        violations = tuple((v["kind"], v["detail"]) for v in reply["violations"])
+        fields = ("end", "arrived", "stopped", "low_level_steps", "task_success")
+        times = ("first_set_point_at", "last_set_point_at")
+        return Done(**{k: reply[k] for k in (*fields, *times)}, violations=violations)
+
+    async def rearm(self) -> None:
+        """Lift the stops that are lifted here too; a worker that starts only later is told then."""
+        if self.post.pid is not None:
+            with contextlib.suppress(WorkerDied):
+                await self._ask("rearm", upto=self._stops.lifted)
+
+    async def _build(self, worker: Worker) -> None:
+        deadline, experiment = self._settings.robot_deadline, self._experiment
+        if self._stops.latched:
+            worker.stop(self._stops.newest)
+        elif self._stops.lifted:
+            await worker.call("rearm", deadline=deadline, upto=self._stops.lifted)
+        await worker.call(
+            "build",
+            deadline=deadline,
+            robot=self.index,
+            adapter=experiment.adapter,
+            task=experiment.task,
+            settings=experiment.adapter_settings,
+            data_dir=str(self._settings.data_dir.resolve()),
+        )
+
+    async def _ask(self, command: str, most: float = math.inf, **arguments: Any) -> dict[str, Any]:
+        deadline = min(most, self._settings.robot_deadline)
+        return await self.post.worker.call(command, deadline=deadline, **arguments)
+
+    def _take_frame(self, header: bytes, jpeg: bytes) -> None:
+        if self._show is not None:
+            # which channel it came by says whose it is
+            told = FrameHeader.model_validate_json(header)
+            self._show(told.model_copy(update={"robot": self.index}), jpeg)
+
+
+def _seen(reply: dict[str, Any]) -> Seen:
+    pictures = tuple(Picture(**view) for view in reply["views"])
+    return Seen(reply["id"], tuple(reply["state"]), reply["taken_at"], pictures, reply["success"])

@@ -1,0 +1,221 @@
+"""One robot at work: its open proposal, its episode, and what was seen last in it."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Literal
+
+from server.acting import Acting, Publish
+from server.crew import Crew
+from server.crew_values import Done, Seen
+from server.desk import Desk
+from server.judging import Judge
+from server.ledger import Ledger
+from server.quota import Quota
+from server.robots import Robot
+from server.schemas import CloseReason, Execution, Experiment, Phase, Proposal
+from server.seeds import episode_seed
+from server.standing import Standing
+from server.store import Store
+from server.store_values import EpisodeOutcome, NewProposal
+from server.violations import Response, respond
+from server.worker import WorkerDied
+
+AskOperator = Callable[[Literal["halt", "pause"], Sequence[str]], Awaitable[None]]
+
+
+@dataclass(frozen=True)
+class Shared:
+    """What the robots of one experiment share."""
+
+    store: Store
+    crew: Crew
+    standing: Standing
+    ledger: Ledger
+    quota: Quota
+    publish: Publish
+    ask_operator: AskOperator
+    beginning: asyncio.Lock = field(default_factory=asyncio.Lock)
+    """Episodes begin one after another: each has a number and a seed of its own."""
+
+
+class Station:
+    """The steps of Algorithm 1 for one robot; `server.training` puts them in their order."""
+
+    def __init__(self, robot: Robot, shared: Shared) -> None:
+        self.robot = robot
+        self._shared = shared
+        self._store = shared.store
+        self._standing = shared.standing
+        standing = shared.standing
+        self.desk = Desk(
+            shared.store, shared.crew, robot, shared.ledger, shared.publish, experiment=lambda: standing.experiment
+        )
+        self.acting = Acting(
+            standing.experiment, shared.store, shared.crew, robot, publish=shared.publish, owed=standing.owed
+        )
+        # the episode that goes on, and what was seen last in it; None: look again
+        self._episode_open = False
+        self._executed = 0
+        self._start: int | None = None
+        """Seed of an episode whose start is still to be made."""
+        self._seen: Seen | None = None
+        self._reset_wanted = False
+
+    @property
+    def experiment(self) -> Experiment:
+        """The experiment that it works for."""
+        return self._standing.experiment
+
+    @cached_property
+    def judge(self) -> Judge | None:
+        """The teacher at this robot's desk, if there is one."""
+        if not self.experiment.teacher:
+            return None
+        return Judge(self.experiment, self.acting.task, self.desk, self._shared.quota)
+
+    @property
+    def moving(self) -> bool:
+        """Whether the robot moves, as far as this process knows."""
+        return self._standing.phase_of(self.robot.index) in (Phase.EXECUTING, Phase.EVALUATING)
+
+    def enter(self, phase: Phase) -> None:
+        """Tell everyone what goes on here."""
+        self._standing.enter(phase, self.robot.index)
+
+    # --- the steps, in their order ------------------------------------------------------------------------------
+
+    async def begin(self) -> None:
+        """Have an episode: a new one where the last has ended, or is to end."""
+        if self._reset_wanted:
+            self._reset_wanted = False
+            await self.end_episode("reset")
+        if self._episode_open:
+            return
+        self.enter(Phase.OBSERVING)
+        async with self._shared.beginning:
+            number = (await self._store.experiment(self.experiment.id)).counters.episodes + 1
+            seed = episode_seed(self.experiment.seed, number)
+            async with self.desk.turn:
+                await self._store.begin_episode(self.experiment.id, seed, robot=self.robot.index)
+        self._episode_open, self._executed, self._start = True, 0, seed
+
+    async def look(self) -> Seen:
+        """What the robot sees now: of a new episode, or of the one that goes on."""
+        if self._start is not None:
+            seed, self._start = self._start, None
+            self._seen = await self.robot.reset(seed)
+        elif self._seen is None:
+            self.enter(Phase.OBSERVING)
+            self._seen = await self.robot.observe()
+        return self._seen
+
+    async def propose(self, seen: Seen) -> None:
+        """Have a proposal open, unless an undo or a click has opened one, or one waits for the gate."""
+        if self.desk.open is None and self.desk.judged is None:
+            self.enter(Phase.PROPOSING)
+            await self.desk.present(await self.acting.draw(seen))
+
+    async def query(self, seen: Seen, leave: asyncio.Event) -> Proposal | None:
+        """The proposal that was judged, by a person or by the teacher; None where none was.
+
+        Raises:
+            WorkerDied: a worker went away while this waited.
+        """
+        if self.desk.open is not None:
+            self.enter(Phase.AWAITING_FEEDBACK)
+            self._shared.ledger.write()
+            asked = self.desk.open
+            if self.judge is not None and not self.judge.has_judged(asked):
+                await self.judge.judge(asked, self.acting.call_of(asked), leave)
+            elif not self.experiment.lockstep:
+                self.desk.draw_ahead(lambda: asyncio.create_task(self._draw_ahead(seen)))
+        return await self.desk.verdict(leave)
+
+    async def decide(self, judged: Proposal, seen: Seen) -> Execution | None:
+        """Ask the gate; if it opens, the execution is stored as started, and `carry_out` is to follow."""
+        self.enter(Phase.DECIDING)
+        async with self.desk.turn:
+            if self.desk.judged is not judged:  # taken back in the meantime
+                return None
+            self.desk.judged = None
+            return await self.acting.decide(judged, seen)
+
+    async def carry_out(self, judged: Proposal, execution: Execution, before: asyncio.Task[None] | None = None) -> None:
+        """Run the approved call, and end the episode if that solved or spoiled the task.
+
+        before: what has to be stored, another robot's motion, before anything of this one is.
+        """
+        self.enter(Phase.EXECUTING)
+        done = await self.acting.move(judged, execution, heed=self._latch_after_damage, before=before)
+        self._seen = None
+        self._executed += 1
+        response = self._response(done)
+        if response in (Response.HALT, Response.PAUSE):
+            verb: Literal["halt", "pause"] = "halt" if response is Response.HALT else "pause"
+            await self._shared.ask_operator(verb, [detail for _, detail in done.violations])
+        if response is not Response.NOTHING:
+            await self.end_episode("violation")
+        elif done.task_success:
+            await self.end_episode("success")
+        elif self._executed >= self.acting.task.horizon:
+            await self.end_episode("horizon")
+
+    # --- around them --------------------------------------------------------------------------------------------
+
+    async def want_reset(self) -> None:
+        """Begin a new episode: now if a proposal waits, else as soon as the skill has ended, or at resume."""
+        self._reset_wanted = True
+        await self.desk.withdraw()
+
+    async def end_episode(self, outcome: EpisodeOutcome) -> None:
+        """End the episode that goes on; what was seen in it is no longer so."""
+        self.forget()
+        if self._episode_open:
+            self._episode_open = False
+            await self._store.end_episode(self.experiment.id, outcome, robot=self.robot.index)
+
+    def forget(self) -> None:
+        """The scene isn't what was seen last."""
+        self._seen = None
+
+    async def interrupt(self) -> None:
+        """The robot, or all of the experiment, broke off in the middle."""
+        await self.desk.withdraw(CloseReason.INTERRUPTED)
+        await self.end_episode("interrupted")
+
+    async def mend(self, death: WorkerDied | None = None) -> None:
+        """Clear up after a death that was met, or one of this robot's that nobody has noticed.
+
+        Raises:
+            TooManyDeaths: it is of no use.
+        """
+        met = death or await self.robot.post.unnoticed_death()
+        if met is None:
+            return
+        await self._shared.crew.bury(met)
+        if met.worker == self.robot.post.name:
+            await self.interrupt()
+
+    async def close_up(self) -> None:
+        """Put away what lies on the desk: nobody works here any more."""
+        await self.desk.withdraw()
+        self.desk.drop_judged()
+        self.desk.forget_ahead()
+
+    async def _draw_ahead(self, seen: Seen) -> NewProposal:
+        """What would be proposed next if nothing moves: once the learner is done, its policy stands still."""
+        await self._shared.crew.flush()
+        return await self.acting.draw(seen)
+
+    def _response(self, done: Done) -> Response:
+        kinds = [kind for kind, _ in done.violations]
+        return respond(kinds, simulated=self.acting.simulated, taught=self.judge is not None)
+
+    def _latch_after_damage(self, done: Done) -> None:
+        """The robots first, then the database."""
+        if self._response(done) is Response.HALT:
+            self._shared.crew.stop()

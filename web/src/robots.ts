@@ -1,0 +1,42 @@
+// What the page knows of each robot of the experiment, and which of them it shows.
+import type { Execution, Proposal } from "./wire";
+
+export interface RobotState {
+  /** The newest proposal; open while `closed_at` is absent. */
+  proposal: Proposal | null;
+  execution: Execution | null;
+  /** The execution whose video covers the stills; it stays until a newer proposal brings newer stills. */
+  live: number | null;
+}
+
+export const STILL: RobotState = { proposal: null, execution: null, live: null };
+
+export function isOpen(proposal: Proposal): boolean {
+  return !proposal.closed_at;
+}
+
+/** The proposals that wait, of all robots, oldest first. */
+export function queueOf(robots: RobotState[]): Proposal[] {
+  const open = robots.flatMap(({ proposal }) => (proposal && isOpen(proposal) ? [proposal] : []));
+  return open.sort((one, other) => one.number - other.number);
+}
+
+/** The chosen robot; else the one whose turn it is to be judged, else one that moves; `before` as long as that fits. */
+export function shownRobot(
+  robots: RobotState[],
+  chosen: number | null,
+  before: number,
+  judged: boolean,
+): number {
+  if (chosen !== null && chosen < robots.length) return chosen;
+  const [next] = judged ? queueOf(robots) : [];
+  if (next) return next.robot;
+  if (before < robots.length && (!judged || robots[before]?.execution)) return before;
+  const moving = robots.findIndex(({ execution }) => execution !== null);
+  return moving >= 0 ? moving : Math.min(before, robots.length - 1);
+}
+
+/** "Robot 2: " where there are several, at the start of a sentence about one. */
+export function saying(robots: RobotState[], robot: number): string {
+  return robots.length > 1 ? `Robot ${robot + 1}: ` : "";
+}
