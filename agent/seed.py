@@ -67,7 +67,10 @@ class Seed:
         self._chooser: Chooser | None = None
         if settings.candidates:
             s = settings
-            search = Search(s.candidates, s.candidate_temperature, s.explore_optimism, s.explore_spacing, s.recall)
+            curiosity = s.explore_curiosity if s.explore == "uncertainty" else 0.0
+            search = Search(
+                s.candidates, s.candidate_temperature, s.explore_optimism, s.explore_spacing, s.recall, curiosity
+            )
             self._chooser = Chooser(self._networks, self._grounding, self._replay, search)
         self._forgotten: set[int] = set()
         self._labels_seen = 0
@@ -99,6 +102,7 @@ class Seed:
             predicted_feedback=choice.predicted,
             skill_probabilities={name: float(p) for name, p in zip(names, choice.probabilities, strict=True)},
             policy_version=self.policy_version,
+            uncertainty=choice.uncertainty,
         )
 
     def _choose(self, state: Array, *, deterministic: bool) -> Choice:
