@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from robot_adapters.base import PRIMITIVES
-from robot_adapters.robosuite.scenes import stages
+from robot_adapters.robosuite.scenes import find, stages
 
 if TYPE_CHECKING:
     from robot_adapters.base import Adapter
+    from robot_adapters.low_level import Plant
     from robot_adapters.tasks.base import Task
 
 
@@ -61,6 +62,19 @@ class RobosuiteFactory:
 
         chosen = RobosuiteSettings.model_validate(settings.model_dump())
         return RobosuiteAdapter(task_by_name(task, chosen.layout), chosen)
+
+    def low_level(self, task: Task) -> Plant:
+        """The task for control step by step (`Commandable` of `low_level.py`): physics without any graphics.
+
+        Raises:
+            Unavailable: robosuite can't be had; the remedy says what to install.
+        """
+        from robot_adapters.robosuite.graphics import load_robosuite  # noqa: PLC0415  as above
+
+        load_robosuite()
+        from robot_adapters.robosuite.simulator import Simulator  # noqa: PLC0415  once MuJoCo is loaded
+
+        return Simulator(task.objects, build=find(task.name))
 
 
 FACTORY = RobosuiteFactory()
