@@ -189,6 +189,7 @@ class Runner:
         while not leave.is_set() and not await self._enough():
             seen = await self._look()  # [2-4] a new episode where the last one has ended
             await self._propose(seen)  # [5, 6]
+            await self.desk.consider(simulated=self.simulated)  # none of the paper's: off unless it is asked for
             judged = await self._query(seen, leave)  # [7, 8]
             if judged is not None and judged.verdict is Verdict.GOOD:
                 await self._execute(judged, seen)  # [9-11]

@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 from sqlalchemy.orm import Session
 
 from robot_adapters.base import SafetyViolation
-from server import schemas, store_executions, store_experiments, store_proposals, store_records
+from server import schemas, store_executions, store_experiments, store_proposals, store_records, store_trust
 from server import store_wire as wire
 from server.database import Database, resolve
 from server.lifecycle import Verb
@@ -142,6 +142,10 @@ class Store(Reads):
     async def undo_feedback(self, feedback_id: int) -> Undone:
         """Take the newest click back while nothing has moved."""
         return await self._write(lambda s: store_proposals.undo(s, feedback_id))
+
+    async def consider(self, proposal_id: int, *, simulated: bool) -> store_trust.Considered:
+        """Whether the critic approves the open proposal by itself; stored, if it does. See `store_trust.consider`."""
+        return await self._write(lambda s: store_trust.consider(s, proposal_id, simulated=simulated))
 
     # --- gate and executions ----------------------------------------------------------------------------------------
 

@@ -8,10 +8,11 @@ from typing import Any, TypeVar
 from sqlalchemy import Select, select
 from sqlalchemy.orm import Session
 
-from server import models, schemas, store_experiments, store_pages, store_proposals, store_records
+from server import models, schemas, store_experiments, store_pages, store_proposals, store_records, store_trust
 from server import store_wire as wire
 from server.database import Database
 from server.schemas_catalogue import TrainerPage
+from server.schemas_trust import AutoApprovalRecord, Calibration
 from server.store_errors import NotFound
 from server.store_values import StoredLabel, StoredResponse
 
@@ -91,6 +92,14 @@ class Reads:
     async def labels(self, experiment_id: int, after_id: int = 0) -> list[StoredLabel]:
         """What the learner trains from, ascending by feedback id."""
         return await self._database.read(lambda s: store_records.labels(s, experiment_id, after_id))
+
+    async def calibration(self, experiment_id: int, newest: int) -> Calibration:
+        """The critic's reliability curve over its newest judged proposals."""
+        return await self._database.read(lambda s: store_trust.calibration(s, experiment_id, newest))
+
+    async def auto_approvals(self, experiment_id: int) -> AutoApprovalRecord:
+        """What the critic approved by itself, and what audits said of it."""
+        return await self._database.read(lambda s: store_trust.record(s, experiment_id))
 
     async def execution(self, execution_id: int) -> schemas.Execution:
         """One execution."""

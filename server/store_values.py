@@ -42,6 +42,7 @@ class NewProposal:
     policy_version: int
     subgoal: str | None
     views: Sequence[NewView]
+    uncertainty: float | None = None
     purpose: Purpose = "training"
     electorate: Sequence[str] = ("local",)
 

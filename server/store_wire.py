@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from server import models, schemas
 from server.schemas_catalogue import Trainer
+from server.schemas_trust import AutoApproval, VerdictSource
 
 
 def experiment(row: models.ExperimentRow) -> schemas.Experiment:
@@ -29,6 +30,8 @@ def experiment(row: models.ExperimentRow) -> schemas.Experiment:
         phase=schemas.Phase.IDLE,
         halted=row.halted,
         failure=row.failure,
+        auto_approval=AutoApproval.model_validate(row.auto_approval) if row.auto_approval else None,
+        auto_approval_suspended=row.auto_approval_suspended,
         counters=schemas.Counters(**counters),
         created_at=row.created_at,
         updated_at=row.updated_at,
@@ -51,6 +54,7 @@ def proposal(row: models.ProposalRow) -> schemas.Proposal:
         parameters=_named(row),
         digest=row.digest,
         predicted_feedback=row.predicted_feedback,
+        uncertainty=row.uncertainty,
         skill_probabilities=row.skill_probabilities,
         policy_version=row.policy_version,
         subgoal=row.subgoal,
@@ -62,6 +66,8 @@ def proposal(row: models.ProposalRow) -> schemas.Proposal:
         closed_at=row.closed_at,
         close_reason=schemas.CloseReason(row.close_reason) if row.close_reason else None,
         verdict=schemas.Verdict(row.verdict) if row.verdict else None,
+        verdict_source=VerdictSource(row.verdict_source) if row.verdict_source else None,
+        audit=row.audit,
         gate=gate,
         purpose="evaluation" if row.purpose == "evaluation" else "training",
     )

@@ -96,6 +96,7 @@ class Learner:
             "skill": s.call.skill,
             "parameters": [float(p) for p in s.call.parameters],
             "predicted_feedback": float(s.predicted_feedback),
+            "uncertainty": None if s.uncertainty is None else float(s.uncertainty),
             "skill_probabilities": {k: float(v) for k, v in s.skill_probabilities.items()},
         } | self._status()
 
