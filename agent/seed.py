@@ -257,11 +257,17 @@ class Seed:
                 for name in parameters
                 if counters["policy_version"]
             }
+            lost = [name for name, value in weights.items() if not torch.isfinite(value).all()]
         except (KeyError, TypeError, ValueError, RuntimeError) as error:
             raise CheckpointError(
                 f"{path} lacks or garbles {error}",
                 remedy="use an older checkpoint, or rebuild the learner from the labels",
             ) from error
+        if lost:
+            raise CheckpointError(
+                f"{path} holds weights that are not finite: {', '.join(lost)}",
+                remedy="use an older checkpoint, or rebuild the learner from the labels",
+            )
 
         with torch.no_grad():
             for name, value in parameters.items():
@@ -280,8 +286,10 @@ class Seed:
         }
         ordered = [fresh[label_id] for label_id in sorted(fresh)]
         penalty = self._settings.affordance_penalty
-        for entry in [self._encoder.entry(label, affordance_penalty=penalty) for label in ordered]:
-            self._replay.add(entry)
+        checked = self._replay.empty()  # nothing is taken before all fit; arrays, because there may be a million
+        for label in ordered:
+            checked.add(self._encoder.entry(label, affordance_penalty=penalty))
+        self._replay.take(checked)
         return ordered
 
     def _fingerprint(self) -> Mapping[str, Any]:
