@@ -20,6 +20,13 @@ class RobosuiteSettings(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
+    draw: bool = Field(
+        True, description="Whether there are cameras; without, a study pays for no pictures and needs no graphics."
+    )
+    stills: Literal["fast", "smooth"] = Field(
+        "fast",
+        description="The images that trainers judge: as fast as live video, or anti-aliased in 2.5 times the time.",
+    )
     jpeg_quality: int = Field(90, ge=30, le=100, description="JPEG quality of the images that trainers judge.")
     speed: float = Field(
         0.0, ge=0.0, le=20.0, description="Simulated seconds a second, for watching; 0 is as fast as it goes."
