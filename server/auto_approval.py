@@ -50,9 +50,8 @@ def decide(rule: AutoApproval | None, case: Case) -> Decision:
     """What becomes of this proposal. Where nothing may move, an approval would be for nothing."""
     if rule is None or not case.simulated or case.mode is not Mode.EXECUTE_APPROVED:
         return Decision.ASK
-    if case.feedback < rule.after_feedback or case.predicted < rule.predicted_at_least:
-        return Decision.ASK
-    if case.uncertainty is None or case.uncertainty > rule.uncertainty_at_most:
+    sure = case.uncertainty is not None and case.uncertainty <= rule.uncertainty_at_most
+    if not (sure and case.predicted >= rule.predicted_at_least and case.feedback >= rule.after_feedback):
         return Decision.ASK
     return Decision.AUDIT if is_audited(rule.audit_every, case.qualified, case.seed) else Decision.APPROVE
 
