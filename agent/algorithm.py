@@ -50,12 +50,15 @@ class Suggestion:
 
     predicted_feedback: the critic's estimate of the label, about [-1, 1] (paper, eq. 1).
     skill_probabilities: pi_phi(a|s) by skill name. policy_version: gradient steps taken so far.
+    uncertainty: how far the critics of an ensemble disagree about this call, a standard deviation in units of
+    predicted_feedback; None where it isn't known. One critic can't disagree, and a 0 would say that it is sure.
     """
 
     call: SkillCall
     predicted_feedback: float
     skill_probabilities: Mapping[str, float]
     policy_version: int
+    uncertainty: float | None = None
 
 
 @dataclass(frozen=True)

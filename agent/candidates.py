@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor
 
+from agent.exploring import disagreement, promise
 from agent.grounding import Grounding
 from agent.networks import Networks
 from agent.proposing import Choice
@@ -46,13 +47,14 @@ FAR = 2.0
 
 @dataclass(frozen=True)
 class Search:
-    """What settings say of choosing. spacing: m; the rest as in `SeedSettings`."""
+    """What settings say of choosing. spacing: m; curiosity: 0 unless `explore` is `uncertainty`; the rest as there."""
 
     candidates: int
     temperature: float
     optimism: float
     spacing: float
     recall: int
+    curiosity: float = 0.0
 
 
 class Chooser:
@@ -88,7 +90,7 @@ class Chooser:
         parameters = _decoded(grounding, options, local, here).clamp(-1.0, 1.0) * networks.mask[options, 0]
         skills, size = grounding.option_skill[options], len(options)
         predicted = networks.predict(states.expand(size, -1), skills, parameters, here.expand(size, *here.shape[1:]))
-        score = predicted.amin(dim=0).clamp(min=-1.0) - _away(grounding, good, options, local)
+        score = promise(predicted, 0.0 if deterministic else search.curiosity) - _away(grounding, good, options, local)
         if deterministic:
             at = int(score.argmax())
             weights = torch.zeros(size)
@@ -105,6 +107,7 @@ class Chooser:
             parameters=parameters[at].double().numpy(),
             probabilities=(probabilities / probabilities.sum()).double().numpy(),
             predicted=float(predicted[:, at].mean()),
+            uncertainty=disagreement(predicted[:, at]),
         )
 
     def _drawn(

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from agent.algorithm import AgentError, Algorithm, Problem
 
@@ -157,12 +157,33 @@ class SeedSettings(BaseModel):
             description="m around a refused spot without a key point where candidates of the same situation lose score",
         ),
     ] = 0.05
+    explore: Annotated[
+        Literal["value", "uncertainty"],
+        Field(
+            description="what speaks for a candidate: the lowest of the critics' predictions, or their mean plus their "
+            "disagreement (needs `critics` of 2 or more, and `candidates`), so that what would teach most is asked"
+        ),
+    ] = "value"
+    explore_curiosity: Annotated[
+        float,
+        Field(
+            ge=0,
+            le=10,
+            description="with `explore` uncertainty: how many standard deviations of the critics are added to the mean",
+        ),
+    ] = 1.0
     recall: Annotated[
         int,
         Field(
             ge=0, le=512, description="newest good calls that are candidates again, each at its key point's new place"
         ),
     ] = 0
+
+    @model_validator(mode="after")
+    def _can_disagree(self) -> SeedSettings:
+        if self.explore == "uncertainty" and (self.critics < 2 or not self.candidates):
+            raise ValueError("explore 'uncertainty' needs critics of 2 or more, and candidates: set both, or 'value'")
+        return self
 
 
 PAPER_SIM: Mapping[str, Any] = MappingProxyType(

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import torch
 
+from agent.exploring import disagreement
 from agent.networks import Networks
 from agent.replay import Float32
 from robot_adapters.base import Array
@@ -14,12 +15,16 @@ from robot_adapters.base import Array
 
 @dataclass(frozen=True)
 class Choice:
-    """skill: index. parameters: (P,) in [-1, 1], padded with 0. probabilities: (K,). predicted: H_theta(s, a, x)."""
+    """skill: index. parameters: (P,) in [-1, 1], padded with 0. probabilities: (K,). predicted: H_theta(s, a, x).
+
+    uncertainty: as in `agent.algorithm.Suggestion`.
+    """
 
     skill: int
     parameters: Array
     probabilities: Array
     predicted: float
+    uncertainty: float | None
 
 
 @torch.inference_mode()
@@ -46,11 +51,12 @@ def choose(
     local = torch.tanh(before).expand(len(probabilities), 1, -1)
     parameters = networks.decode(local, here)[option, 0].clamp(-1.0, 1.0) * networks.mask[option, 0]
     skill = networks.option_skill[option]
-    predicted = networks.predict(states, skill.unsqueeze(0), parameters.unsqueeze(0), here).mean()
+    predicted = networks.predict(states, skill.unsqueeze(0), parameters.unsqueeze(0), here)[:, 0]
     by_skill = torch.zeros(networks.layout.skills).index_add_(0, networks.option_skill, probabilities)
     return Choice(
         skill=int(skill),
         parameters=parameters.numpy().astype(np.float64),
         probabilities=by_skill.numpy().astype(np.float64),
-        predicted=float(predicted),
+        predicted=float(predicted.mean()),
+        uncertainty=disagreement(predicted),
     )

@@ -111,8 +111,9 @@ class Replay:
         if self._size == len(self._ids):
             self._grow()
         at = self._position(entry.id)
-        for column in self._columns():
-            column[at + 1 : self._size + 1] = column[at : self._size]
+        if at < self._size:
+            for column in self._columns():
+                column[at + 1 : self._size + 1] = column[at : self._size]
         self._ids[at] = entry.id
         self._states[at] = entry.state
         self._skills[at] = entry.skill
@@ -121,6 +122,32 @@ class Replay:
         self._targets[at] = entry.target
         self._keypoints[at] = entry.keypoints
         self._size += 1
+        self._by_value = None
+
+    def empty(self) -> Replay:
+        """Another one of the same widths, with nothing in it."""
+        return Replay(self._states.shape[1], self._parameters.shape[1], self._keypoints.shape[1:])
+
+    def take(self, other: Replay) -> None:
+        """Take all labels of another replay of the same widths at once: moves every row once, whatever the order.
+
+        Raises:
+            ValueError: one of its ids is held already; nothing was taken.
+        """
+        ids, theirs = self._ids[: self._size], other._ids[: other._size]
+        at = np.searchsorted(ids, theirs)
+        inside = at < len(ids)
+        if (held := theirs[inside][ids[at[inside]] == theirs[inside]]).size:
+            raise ValueError(f"label {held[0]} is held already")
+        before, self._size = self._size, self._size + other._size
+        while self._size > len(self._ids):
+            self._grow()
+        for column, added in zip(self._columns(), other._columns(), strict=True):
+            column[before : self._size] = added[: other._size]
+        if inside.any():  # some are older than the newest held
+            order = np.argsort(self._ids[: self._size], kind="stable")
+            for column in self._columns():
+                column[: self._size] = column[: self._size][order]
         self._by_value = None
 
     def forget(self, label_id: int) -> None:

@@ -67,7 +67,10 @@ class Seed:
         self._chooser: Chooser | None = None
         if settings.candidates:
             s = settings
-            search = Search(s.candidates, s.candidate_temperature, s.explore_optimism, s.explore_spacing, s.recall)
+            curiosity = s.explore_curiosity if s.explore == "uncertainty" else 0.0
+            search = Search(
+                s.candidates, s.candidate_temperature, s.explore_optimism, s.explore_spacing, s.recall, curiosity
+            )
             self._chooser = Chooser(self._networks, self._grounding, self._replay, search)
         self._forgotten: set[int] = set()
         self._labels_seen = 0
@@ -99,6 +102,7 @@ class Seed:
             predicted_feedback=choice.predicted,
             skill_probabilities={name: float(p) for name, p in zip(names, choice.probabilities, strict=True)},
             policy_version=self.policy_version,
+            uncertainty=choice.uncertainty,
         )
 
     def _choose(self, state: Array, *, deterministic: bool) -> Choice:
@@ -253,11 +257,17 @@ class Seed:
                 for name in parameters
                 if counters["policy_version"]
             }
+            lost = [name for name, value in weights.items() if not torch.isfinite(value).all()]
         except (KeyError, TypeError, ValueError, RuntimeError) as error:
             raise CheckpointError(
                 f"{path} lacks or garbles {error}",
                 remedy="use an older checkpoint, or rebuild the learner from the labels",
             ) from error
+        if lost:
+            raise CheckpointError(
+                f"{path} holds weights that are not finite: {', '.join(lost)}",
+                remedy="use an older checkpoint, or rebuild the learner from the labels",
+            )
 
         with torch.no_grad():
             for name, value in parameters.items():
@@ -276,8 +286,10 @@ class Seed:
         }
         ordered = [fresh[label_id] for label_id in sorted(fresh)]
         penalty = self._settings.affordance_penalty
-        for entry in [self._encoder.entry(label, affordance_penalty=penalty) for label in ordered]:
-            self._replay.add(entry)
+        checked = self._replay.empty()  # nothing is taken before all fit; arrays, because there may be a million
+        for label in ordered:
+            checked.add(self._encoder.entry(label, affordance_penalty=penalty))
+        self._replay.take(checked)
         return ordered
 
     def _fingerprint(self) -> Mapping[str, Any]:

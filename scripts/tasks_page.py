@@ -24,8 +24,7 @@ parameters no farther from the target than the millimetres given (below/above fo
 also for the x where it ends, and a push along y is never good). `judge` says good or bad, `margin` how many metres a
 call is inside its box.
 
-Methods that command the gripper itself (SAC, TAMER) see the gripper's position and whether it is closed before the
-state: `low_level_state` in `robot_adapters/tasks/low_level.py`.
+Methods without skills command the gripper itself: [low-level control](low-level.md).
 
 Where things start is drawn from the ranges under *start*. They are settings: an adapter's setting `layout`, for
 instance `{"toy_y": [-0.02, 0.02]}`, replaces some of them.

@@ -69,6 +69,7 @@ class Acting:
             call=idea.call,
             parameter_names=tuple(p.name for p in spec.parameters),
             predicted_feedback=idea.predicted_feedback,
+            uncertainty=idea.uncertainty,
             skill_probabilities=idea.skill_probabilities,
             policy_version=idea.policy_version,
             subgoal=self._subgoal(seen),

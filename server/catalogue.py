@@ -15,6 +15,7 @@ from robot_adapters import registry
 from robot_adapters.base import AdapterFactory
 from robot_adapters.tasks.base import Task
 from robot_adapters.tasks.layout import LayoutSettings
+from server import auto_approval
 from server.errors import invalid
 from server.schemas import Aggregation, ExperimentCreate
 from server.schemas_catalogue import AdapterInfo, AlgorithmInfo, Parameter, Skill, TaskInfo, TeacherInfo
@@ -124,9 +125,11 @@ def check(body: ExperimentCreate) -> ExperimentCreate:
             [FieldProblem(field="aggregation", message="needs several trainers, and there is one")],
             remedy="use 'first'",
         )
+    settings = _resolve("settings", algorithm.settings, {**preset, **body.settings})
+    auto_approval.check(body.auto_approval, adapter=body.adapter, simulated=adapter.simulated, settings=settings)
     return body.model_copy(
         update={
-            "settings": _resolve("settings", algorithm.settings, {**preset, **body.settings}),
+            "settings": settings,
             "adapter_settings": _resolve("adapter_settings", adapter.settings, body.adapter_settings),
             "teacher_settings": _teacher_settings(body),
         }

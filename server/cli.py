@@ -1,4 +1,4 @@
-"""The command line: `seed serve`, `train`, `evaluate`, `check`, `openapi`.
+"""The command line: `seed serve`, `train`, `evaluate`, `study`, `check`, `openapi`.
 
 Exit codes: 0 done; 1 `check` has findings; 2 wrong arguments, or a machine that isn't set up; 3 robot, simulator or
 learner failed or can't be had; 130 interrupted.
@@ -20,6 +20,7 @@ from robot_adapters.base import AdapterError, Unavailable
 from server.cli_runs import Interrupted, RunFailed, check_plug_in, evaluate_stored, train_headless
 from server.cli_serve import run_server
 from server.cli_set import settings_from
+from server.cli_study import app as study
 from server.errors import ServiceError
 from server.origin import check_bind
 from server.schemas import EvaluationCreate, ExperimentCreate
@@ -36,6 +37,7 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
+app.add_typer(study, name="study")
 _stderr = Console(stderr=True, highlight=False)
 
 DataDir = Annotated[
@@ -72,9 +74,7 @@ def train(  # noqa: PLR0917  Typer makes an option of each
     teacher: Annotated[str, typer.Option(help="the synthetic trainer that judges")] = "synthetic",
     feedback: Annotated[int, typer.Option(min=1, help="feedback to train with")] = 300,
     seed: Annotated[int, typer.Option(min=0, max=2**31 - 1, help="seed of robot and learner")] = 0,
-    num_envs: Annotated[
-        int, typer.Option(min=1, max=16, help="simulated robots at once; they share the learner")
-    ] = 1,
+    num_envs: Annotated[int, typer.Option(min=1, max=16, help="simulated robots at once; they share the learner")] = 1,
     evaluate: Annotated[int, typer.Option(min=0, max=1000, help="rollouts of the final evaluation; 0: none")] = 10,
     name: Annotated[str | None, typer.Option(help="name of the experiment")] = None,
     changes: Annotated[

@@ -163,7 +163,8 @@ class Crew:
         """Suggest a call for this state."""
         reply = await self._learner("propose", QUICK, state=list(state), deterministic=deterministic)
         call = SkillCall(reply["skill"], tuple(reply["parameters"]))
-        return Idea(call, reply["predicted_feedback"], reply["skill_probabilities"], reply["policy_version"])
+        told = ("predicted_feedback", "skill_probabilities", "policy_version", "uncertainty")
+        return Idea(call, **{name: reply[name] for name in told})
 
     async def flush(self) -> None:
         """Wait until every owed gradient step is taken."""

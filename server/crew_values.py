@@ -37,6 +37,7 @@ class Idea:
     predicted_feedback: float
     skill_probabilities: dict[str, float]
     policy_version: int
+    uncertainty: float | None = None
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,7 @@ from collections.abc import Callable
 from datetime import UTC, datetime
 
 from server.acting import Publish
+from server.auto_approval import Decision
 from server.crew import Crew
 from server.ledger import Ledger
 from server.messages import FeedbackStored, FeedbackUndone, ProposalClosed, ProposalOpened
@@ -62,6 +63,23 @@ class Desk:
         async with self.turn:
             if self.open is None:
                 self._show(await self._store.open_proposal(drawn))
+
+    async def consider(self, *, simulated: bool) -> None:
+        """Let the critic approve the open proposal, if the experiment has a rule for that and it meets it.
+
+        What it approves is judged as by a click, and waits for the gate; nothing is learned from it.
+        """
+        experiment = self._experiment()
+        if self.open is None or experiment.auto_approval is None or experiment.auto_approval_suspended is not None:
+            return
+        async with self.turn:
+            if self.open is None:
+                return
+            considered = await self._store.consider(self.open.id, simulated=simulated)
+            if considered.decision is Decision.APPROVE:
+                self.open, self.judged = None, considered.proposal
+        if considered.suspended or considered.decision is Decision.APPROVE:
+            self._ledger.refresh()
 
     async def verdict(self, leave: asyncio.Event) -> Proposal | None:
         """Wait until the open proposal is closed; the judged one, or None where it closed without a verdict.

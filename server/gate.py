@@ -10,6 +10,8 @@ OPEN = GateDecision(allowed=True, reason="open")
 def decide(
     *,
     mode: Mode,
+    by_critic: bool,
+    auto_approval: bool,
     verdict: Verdict | None,
     lifecycle: Lifecycle,
     halted: bool,
@@ -18,11 +20,18 @@ def decide(
     workspace_ok: bool,
     observation_current: bool,
 ) -> GateDecision:
-    """The decision for a training proposal; the reason names the first thing that keeps the gate shut."""
+    """The decision for a training proposal; the reason names the first thing that keeps the gate shut.
+
+    by_critic: the verdict is the critic's own. auto_approval: the experiment has a rule that lets it approve.
+    """
     if halted:
         return _shut("the emergency stop is latched")
     if verdict is not Verdict.GOOD:
         return _shut("no verdict" if verdict is None else f"the verdict is {verdict.value}")
+    if by_critic and not simulated:
+        return _shut("a real robot moves by a person's verdict only, and this one is the critic's")
+    if by_critic and not auto_approval:
+        return _shut("the critic approved it, and auto-approval is off")
     if mode is not Mode.EXECUTE_APPROVED:
         return _shut("the mode is propose only")
     if lifecycle is not Lifecycle.RUNNING:

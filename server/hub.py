@@ -8,6 +8,8 @@ from collections import defaultdict
 from datetime import UTC, datetime
 from typing import Literal
 
+from robot_adapters import registry
+from server import auto_approval
 from server.desk import Desk
 from server.lifecycle import MOVING
 from server.messages import EvaluationChanged, ExecutionEnded, ExperimentChanged, Snapshot
@@ -175,7 +177,17 @@ class Hub:
             return evaluation
 
     async def update(self, experiment_id: int, body: ExperimentUpdate) -> Experiment:
-        """Change what may change live."""
+        """Change what may change live.
+
+        Raises:
+            NotFound: no such experiment. ServiceError: the critic may not approve by itself in this one.
+        """
+        if body.auto_approval is not None:
+            changed = await self.store.experiment(experiment_id)
+            simulated = registry.adapter(changed.adapter).simulated
+            auto_approval.check(
+                body.auto_approval, adapter=changed.adapter, simulated=simulated, settings=changed.settings
+            )
         experiment = await self.store.update_experiment(experiment_id, body)
         if runner := self._runners.get(experiment_id):
             runner.changed(experiment)

@@ -134,8 +134,9 @@ def values_of(counters: Counters, predicted_feedback: float, label: int) -> dict
     """What a metric point holds beside the learner's own values.
 
     good_share: of all counted feedback, 0 to 1. violation_ratio: violations over decision steps, which are proposals
-    that were judged; one feedback judges one proposal as long as one trainer decides.
+    that were judged; one feedback judges one proposal as long as one trainer decides. The critic's own count too.
     """
+    decisions = counters.feedback + counters.auto_approved
     return {
         "predicted_feedback": predicted_feedback,
         "label": float(label),
@@ -143,5 +144,5 @@ def values_of(counters: Counters, predicted_feedback: float, label: int) -> dict
         "executions": float(counters.executions),
         "violations": float(counters.violations),
         "good_share": counters.good / counters.feedback if counters.feedback else 0.0,
-        "violation_ratio": counters.violations / counters.feedback if counters.feedback else 0.0,
+        "violation_ratio": counters.violations / decisions if decisions else 0.0,
     }

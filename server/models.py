@@ -109,6 +109,10 @@ class ExperimentRow(Base):
     successes: Mapped[int] = mapped_column(default=0)
     episodes: Mapped[int] = mapped_column(default=0)
     violations: Mapped[int] = mapped_column(default=0)
+    auto_approved: Mapped[int] = mapped_column(default=0, server_default=text("0"))
+    auto_approval: Mapped[dict[str, Any] | None] = mapped_column(JSON(none_as_null=True))
+    auto_approval_since: Mapped[int] = mapped_column(default=0, server_default=text("0"))
+    auto_approval_suspended: Mapped[str | None] = mapped_column(Text)
     created_at: Mapped[datetime]
     updated_at: Mapped[datetime]
 
@@ -165,6 +169,7 @@ class ProposalRow(Base):
             name="judged",
         ),
         CheckConstraint("(gate_allowed IS NULL) = (gate_reason IS NULL)", name="gate"),
+        _one_of("verdict_source", "trainers", "critic", "evaluation"),
         _one_a_robot("uq_proposal_open", "closed_at IS NULL"),
     )
 
@@ -180,6 +185,7 @@ class ProposalRow(Base):
     parameter_names: Mapped[list[Any]]
     digest: Mapped[str] = mapped_column(String(64))
     predicted_feedback: Mapped[float]
+    uncertainty: Mapped[float | None]
     skill_probabilities: Mapped[dict[str, Any]]
     policy_version: Mapped[int]
     subgoal: Mapped[str | None]
@@ -189,6 +195,8 @@ class ProposalRow(Base):
     closed_at: Mapped[datetime | None]
     close_reason: Mapped[str | None]
     verdict: Mapped[str | None]
+    verdict_source: Mapped[str | None]
+    audit: Mapped[bool] = mapped_column(default=False, server_default=text("false"))
     gate_allowed: Mapped[bool | None]
     gate_reason: Mapped[str | None]
 

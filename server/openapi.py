@@ -15,10 +15,11 @@ TAGS = [
     {"name": "proposals", "description": "Skill calls that the agent suggests, with the pictures they are drawn on"},
     {"name": "feedback", "description": "Clicks"},
     {"name": "records", "description": "What an experiment leaves behind"},
+    {"name": "trust", "description": "How far the critic may be trusted"},
     {"name": "stream", "description": "Messages of the WebSocket /api/v1/experiments/{id}/stream"},
     {"name": "probes", "description": "For whoever runs the service"},
 ]
-REQUESTS = {"ExperimentCreate", "ExperimentUpdate", "FeedbackCreate", "EvaluationCreate"}
+REQUESTS = {"ExperimentCreate", "ExperimentUpdate", "FeedbackCreate", "EvaluationCreate", "AutoApproval"}
 """Schemas whose defaults may be left out; an answer carries every field, null where there is nothing."""
 
 

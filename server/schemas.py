@@ -11,6 +11,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, StrictInt
 
+from server.schemas_trust import Audit, AutoApproval, Suspended, Uncertainty, VerdictSource
+
 
 class Wire(BaseModel):
     """Base of every message: unknown fields are an error, values are immutable."""
@@ -89,6 +91,7 @@ class Counters(Wire):
     successes: int = 0
     episodes: int = 0
     violations: int = 0
+    auto_approved: int = 0
 
 
 class ExperimentCreate(Wire):
@@ -124,6 +127,7 @@ class ExperimentCreate(Wire):
             "exactly; false: they run while the human thinks; null: true with a teacher, else false"
         ),
     ] = None
+    auto_approval: AutoApproval | None = None
 
 
 class ExperimentUpdate(Wire):
@@ -132,6 +136,7 @@ class ExperimentUpdate(Wire):
     name: Name | None = None
     mode: Mode | None = None
     feedback_timeout: Annotated[float | None, Field(gt=0, le=86400)] = None
+    auto_approval: AutoApproval | None = None
 
 
 class Experiment(Wire):
@@ -157,6 +162,8 @@ class Experiment(Wire):
     phase: Phase
     halted: bool
     failure: Annotated[str | None, Field(description="why it failed, with the remedy")] = None
+    auto_approval: AutoApproval | None = None
+    auto_approval_suspended: Suspended = None
     counters: Counters
     created_at: datetime
     updated_at: datetime
@@ -237,6 +244,7 @@ class Proposal(Wire):
     parameters: dict[str, float]
     digest: Annotated[str, Field(description="SHA-256 over skill and parameters; an approval is bound to it")]
     predicted_feedback: float
+    uncertainty: Uncertainty = None
     skill_probabilities: dict[str, float]
     policy_version: int
     subgoal: Annotated[str | None, Field(description="what comes next, in words")] = None
@@ -245,6 +253,8 @@ class Proposal(Wire):
     closed_at: datetime | None = None
     close_reason: CloseReason | None = None
     verdict: Verdict | None = None
+    verdict_source: VerdictSource | None = None
+    audit: Audit = False
     gate: GateDecision | None = None
     purpose: Literal["training", "evaluation"] = "training"
 
@@ -363,35 +373,3 @@ class EvaluationPage(Page):
     """Evaluations, newest first."""
 
     items: list[Evaluation]
-
-
-class Checkpoint(Wire):
-    """A saved learner."""
-
-    id: int
-    experiment_id: int
-    policy_version: int
-    last_feedback_id: int
-    sha256: str
-    created_at: datetime
-
-
-class CheckpointPage(Page):
-    """Checkpoints, newest first."""
-
-    items: list[Checkpoint]
-
-
-class StoredEvent(Wire):
-    """One line of the experiment's journal."""
-
-    id: int
-    kind: str
-    payload: dict[str, Any]
-    at: datetime
-
-
-class EventPage(Page):
-    """Journal lines, oldest first."""
-
-    items: list[StoredEvent]

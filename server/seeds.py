@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-_JUDGING = 1
+_JUDGING, _AUDITING = 1, 2
 
 
 def episode_seed(experiment_seed: int, number: int) -> int:
@@ -15,3 +15,8 @@ def episode_seed(experiment_seed: int, number: int) -> int:
 def judging(experiment_seed: int, number: int) -> np.random.Generator:
     """A synthetic trainer's dice for the proposal of this number: after a restart they fall as they would have."""
     return np.random.default_rng(np.random.SeedSequence([experiment_seed, number, _JUDGING]))
+
+
+def auditing(experiment_seed: int, block: int) -> np.random.Generator:
+    """The lot that draws which proposal of a block is held back to check the critic."""
+    return np.random.default_rng(np.random.SeedSequence([experiment_seed, block, _AUDITING]))

@@ -119,6 +119,10 @@ class Station:
             self.enter(Phase.PROPOSING)
             await self.desk.present(await self.acting.draw(seen))
 
+    async def consider(self) -> None:
+        """Let the critic judge the open proposal, where the experiment has a rule for that."""
+        await self.desk.consider(simulated=self.acting.simulated)
+
     async def query(self, seen: Seen, leave: asyncio.Event) -> Proposal | None:
         """The proposal that was judged, by a person or by the teacher; None where none was.
 

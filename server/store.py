@@ -13,7 +13,15 @@ from typing import Any, TypeVar
 from sqlalchemy.orm import Session
 
 from robot_adapters.base import SafetyViolation
-from server import schemas, store_executions, store_experiments, store_proposals, store_records
+from server import (
+    schemas,
+    schemas_records,
+    store_executions,
+    store_experiments,
+    store_proposals,
+    store_records,
+    store_trust,
+)
 from server import store_wire as wire
 from server.database import Database, resolve
 from server.lifecycle import Verb
@@ -157,6 +165,10 @@ class Store(Reads):
         """Take the newest click back while nothing has moved."""
         return await self._write(lambda s: store_proposals.undo(s, feedback_id))
 
+    async def consider(self, proposal_id: int, *, simulated: bool) -> store_trust.Considered:
+        """Whether the critic approves the open proposal by itself; stored, if it does. See `store_trust.consider`."""
+        return await self._write(lambda s: store_trust.consider(s, proposal_id, simulated=simulated))
+
     # --- gate and executions ----------------------------------------------------------------------------------------
 
     async def record_evaluation_approval(self, proposal_id: int) -> schemas.Proposal:
@@ -249,7 +261,7 @@ class Store(Reads):
 
     async def add_checkpoint(
         self, experiment_id: int, *, policy_version: int, last_feedback_id: int, sha256: str
-    ) -> schemas.Checkpoint:
+    ) -> schemas_records.Checkpoint:
         """A learner that has been saved."""
         return await self._write(
             lambda s: wire.checkpoint(
@@ -257,10 +269,10 @@ class Store(Reads):
             )
         )
 
-    async def add_event(self, experiment_id: int, kind: str, payload: Mapping[str, Any]) -> schemas.StoredEvent:
+    async def add_event(self, experiment_id: int, kind: str, payload: Mapping[str, Any]) -> schemas_records.StoredEvent:
         """A line of the journal that no other write causes, e.g. a worker's death."""
 
-        def add(session: Session) -> schemas.StoredEvent:
+        def add(session: Session) -> schemas_records.StoredEvent:
             store_experiments.load(session, experiment_id)
             row = store_experiments.journal(session, experiment_id, kind, **dict(payload))
             session.flush()

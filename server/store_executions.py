@@ -8,7 +8,7 @@ from sqlalchemy import select
 from sqlalchemy.orm import Session
 
 from robot_adapters.base import SafetyViolation
-from server import gate, schemas
+from server import gate, schemas, schemas_trust
 from server.models import ExecutionRow, ExperimentRow, ProposalRow, ViolationRow
 from server.store_errors import Conflict, NotFound
 from server.store_experiments import journal, load, now
@@ -149,6 +149,8 @@ def _decide(
         )
     return gate.decide(
         mode=schemas.Mode(experiment.mode),
+        by_critic=proposal.verdict_source == schemas_trust.VerdictSource.CRITIC.value,
+        auto_approval=experiment.auto_approval is not None,
         verdict=verdict,
         lifecycle=lifecycle,
         halted=experiment.halted,

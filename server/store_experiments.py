@@ -74,6 +74,11 @@ def update(session: Session, experiment_id: int, change: schemas.ExperimentUpdat
     for required in ("name", "mode"):
         if fields.get(required, "") is None:
             del fields[required]
+    if "auto_approval" in fields:
+        # what the body leaves out of a rule is its default; audits count from here on
+        fields["auto_approval"] = change.auto_approval.model_dump() if change.auto_approval else None
+        newest = select(func.max(ProposalRow.number)).where(ProposalRow.experiment_id == experiment_id)
+        row.auto_approval_since, row.auto_approval_suspended = session.scalar(newest) or 0, None
     for name, value in fields.items():
         setattr(row, name, value)
     if fields:

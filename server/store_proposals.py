@@ -7,7 +7,7 @@ import dataclasses
 from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
-from server import aggregation, lifecycle, schemas
+from server import aggregation, lifecycle, schemas, schemas_trust
 from server.models import (
     EvaluationRow,
     ExecutionRow,
@@ -69,6 +69,7 @@ def open_proposal(session: Session, new: NewProposal) -> ProposalRow:
         parameter_names=list(new.parameter_names),
         digest=new.call.digest,
         predicted_feedback=float(new.predicted_feedback),
+        uncertainty=None if new.uncertainty is None else float(new.uncertainty),
         skill_probabilities={name: float(value) for name, value in new.skill_probabilities.items()},
         policy_version=new.policy_version,
         subgoal=new.subgoal,
@@ -133,7 +134,7 @@ def submit(session: Session, proposal_id: int, click: schemas.FeedbackCreate, ki
     rule = schemas.Aggregation(experiment.aggregation)
     verdict = aggregation.verdict(rule, votes(session, proposal_id), proposal.electorate)
     if verdict is not None:
-        _judge(proposal, verdict)
+        judge(proposal, verdict, schemas_trust.VerdictSource.TRAINERS)
     session.flush()
     return Submission(feedback_wire(row), duplicate=False, closed=proposal_wire(proposal) if verdict else None)
 
@@ -145,7 +146,7 @@ def approve_evaluation(session: Session, proposal_id: int) -> ProposalRow:
         raise Conflict("only an open proposal of an evaluation can be approved by it", remedy="submit feedback instead")
     trainer = _trainer(session, "evaluation", "evaluation")
     _store(session, proposal, trainer, f"evaluation-{proposal_id}", 1, late=False)
-    _judge(proposal, schemas.Verdict.GOOD)
+    judge(proposal, schemas.Verdict.GOOD, schemas_trust.VerdictSource.EVALUATION)
     session.flush()
     return proposal
 
@@ -230,6 +231,7 @@ def undo(session: Session, feedback_id: int) -> Undone:
         session.flush()  # before the other opens: a robot has at most one open
     row.undone_at = now()
     judged.closed_at = judged.close_reason = judged.verdict = judged.gate_allowed = judged.gate_reason = None
+    judged.verdict_source = None
     experiment = load(session, row.experiment_id)
     _count(experiment, row.value, -1)
     experiment.updated_at = now()
@@ -318,8 +320,10 @@ def _store(
     return row
 
 
-def _judge(proposal: ProposalRow, verdict: schemas.Verdict) -> None:
+def judge(proposal: ProposalRow, verdict: schemas.Verdict, source: schemas_trust.VerdictSource) -> None:
+    """Close it with a verdict."""
     proposal.verdict, proposal.close_reason, proposal.closed_at = verdict.value, "judged", now()
+    proposal.verdict_source = source.value
 
 
 def _count(experiment: ExperimentRow, value: int, by: int) -> None:

@@ -8,10 +8,20 @@ from typing import Any, TypeVar
 from sqlalchemy import Select, select
 from sqlalchemy.orm import Session
 
-from server import models, schemas, store_experiments, store_pages, store_proposals, store_records
+from server import (
+    models,
+    schemas,
+    schemas_records,
+    store_experiments,
+    store_pages,
+    store_proposals,
+    store_records,
+    store_trust,
+)
 from server import store_wire as wire
 from server.database import Database
 from server.schemas_catalogue import TrainerPage
+from server.schemas_trust import AutoApprovalRecord, Calibration
 from server.store_errors import NotFound
 from server.store_values import StoredLabel, StoredResponse
 
@@ -91,6 +101,14 @@ class Reads:
         """What the learner trains from, ascending by feedback id."""
         return await self._database.read(lambda s: store_records.labels(s, experiment_id, after_id))
 
+    async def calibration(self, experiment_id: int, newest: int) -> Calibration:
+        """The critic's reliability curve over its newest judged proposals."""
+        return await self._database.read(lambda s: store_trust.calibration(s, experiment_id, newest))
+
+    async def auto_approvals(self, experiment_id: int) -> AutoApprovalRecord:
+        """What the critic approved by itself, and what audits said of it."""
+        return await self._database.read(lambda s: store_trust.record(s, experiment_id))
+
     async def execution(self, execution_id: int) -> schemas.Execution:
         """One execution."""
         return await self._one(models.ExecutionRow, execution_id, "execution", wire.execution)
@@ -127,19 +145,19 @@ class Reads:
         items, after = await self._page(query, row.id, wire.evaluation, cursor, limit, of=experiment_id)
         return schemas.EvaluationPage(items=items, next_cursor=after)
 
-    async def latest_checkpoint(self, experiment_id: int) -> schemas.Checkpoint | None:
+    async def latest_checkpoint(self, experiment_id: int) -> schemas_records.Checkpoint | None:
         """The newest one."""
         items = (await self.checkpoints(experiment_id, limit=1)).items
         return items[0] if items else None
 
     async def checkpoints(
         self, experiment_id: int, cursor: str | None = None, limit: int = 50
-    ) -> schemas.CheckpointPage:
+    ) -> schemas_records.CheckpointPage:
         """Newest first."""
         row = models.CheckpointRow
         query = select(row).where(row.experiment_id == experiment_id)
         items, after = await self._page(query, row.id, wire.checkpoint, cursor, limit, of=experiment_id)
-        return schemas.CheckpointPage(items=items, next_cursor=after)
+        return schemas_records.CheckpointPage(items=items, next_cursor=after)
 
     async def trainers(self, cursor: str | None = None, limit: int = 50) -> TrainerPage:
         """By id."""
@@ -147,12 +165,12 @@ class Reads:
         items, after = await self._page(select(row), row.id, wire.trainer, cursor, limit, newest_first=False)
         return TrainerPage(items=items, next_cursor=after)
 
-    async def events(self, experiment_id: int, cursor: str | None = None, limit: int = 50) -> schemas.EventPage:
+    async def events(self, experiment_id: int, cursor: str | None = None, limit: int = 50) -> schemas_records.EventPage:
         """The journal, oldest first."""
         row = models.EventRow
         query = select(row).where(row.experiment_id == experiment_id)
         items, after = await self._page(query, row.id, wire.event, cursor, limit, of=experiment_id, newest_first=False)
-        return schemas.EventPage(items=items, next_cursor=after)
+        return schemas_records.EventPage(items=items, next_cursor=after)
 
     async def idempotent(self, key: str, route: str, body_digest: str) -> StoredResponse | None:
         """The answer that this key got before on this route; Conflict where the body was another."""

@@ -43,6 +43,7 @@ class NewProposal:
     policy_version: int
     subgoal: str | None
     views: Sequence[NewView]
+    uncertainty: float | None = None
     purpose: Purpose = "training"
     electorate: Sequence[str] = ("local",)
     robot: int = 0

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from server import models, schemas
+from server import models, schemas, schemas_records
 from server.schemas_catalogue import Trainer
+from server.schemas_trust import AutoApproval, VerdictSource
 
 
 def experiment(row: models.ExperimentRow) -> schemas.Experiment:
@@ -30,6 +31,8 @@ def experiment(row: models.ExperimentRow) -> schemas.Experiment:
         phase=schemas.Phase.IDLE,
         halted=row.halted,
         failure=row.failure,
+        auto_approval=AutoApproval.model_validate(row.auto_approval) if row.auto_approval else None,
+        auto_approval_suspended=row.auto_approval_suspended,
         counters=schemas.Counters(**counters),
         created_at=row.created_at,
         updated_at=row.updated_at,
@@ -53,6 +56,7 @@ def proposal(row: models.ProposalRow) -> schemas.Proposal:
         parameters=_named(row),
         digest=row.digest,
         predicted_feedback=row.predicted_feedback,
+        uncertainty=row.uncertainty,
         skill_probabilities=row.skill_probabilities,
         policy_version=row.policy_version,
         subgoal=row.subgoal,
@@ -64,6 +68,8 @@ def proposal(row: models.ProposalRow) -> schemas.Proposal:
         closed_at=row.closed_at,
         close_reason=schemas.CloseReason(row.close_reason) if row.close_reason else None,
         verdict=schemas.Verdict(row.verdict) if row.verdict else None,
+        verdict_source=VerdictSource(row.verdict_source) if row.verdict_source else None,
+        audit=row.audit,
         gate=gate,
         purpose="evaluation" if row.purpose == "evaluation" else "training",
     )
@@ -124,9 +130,9 @@ def metric(row: models.MetricRow) -> schemas.MetricPoint:
     return schemas.MetricPoint(feedback=row.feedback, at=row.at, values=row.data)
 
 
-def checkpoint(row: models.CheckpointRow) -> schemas.Checkpoint:
+def checkpoint(row: models.CheckpointRow) -> schemas_records.Checkpoint:
     """A saved learner."""
-    return schemas.Checkpoint(
+    return schemas_records.Checkpoint(
         id=row.id,
         experiment_id=row.experiment_id,
         policy_version=row.policy_version,
@@ -141,9 +147,9 @@ def trainer(row: models.TrainerRow) -> Trainer:
     return Trainer.model_validate({"id": row.id, "name": row.name, "kind": row.kind, "created_at": row.created_at})
 
 
-def event(row: models.EventRow) -> schemas.StoredEvent:
+def event(row: models.EventRow) -> schemas_records.StoredEvent:
     """A line of the journal."""
-    return schemas.StoredEvent(id=row.id, kind=row.kind, payload=row.payload, at=row.at)
+    return schemas_records.StoredEvent(id=row.id, kind=row.kind, payload=row.payload, at=row.at)
 
 
 def _named(row: models.ProposalRow) -> dict[str, float]:

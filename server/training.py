@@ -26,6 +26,7 @@ async def train(station: Station, crew: Crew, quota: Quota, leave: asyncio.Event
         await station.begin()  # [2] a new episode where the last one has ended
         seen = await station.look()  # [3, 4]
         await station.propose(seen)  # [5, 6]
+        await station.consider()  # none of the paper's: off unless it is asked for
         judged = await station.query(seen, leave)  # [7, 8]
         if judged is not None and judged.verdict is Verdict.GOOD:
             execution = await station.decide(judged, seen)  # [9]
@@ -51,6 +52,7 @@ async def train_in_step(stations: Sequence[Station], crew: Crew, quota: Quota, l
         seen = await _all(station.look() for station in busy)  # [3, 4]
         for station, sight in zip(busy, seen, strict=True):
             await station.propose(sight)  # [5, 6]
+            await station.consider()
         with crew.together():
             judged = [await station.query(sight, leave) for station, sight in zip(busy, seen, strict=True)]  # [7, 8]
         started = []

@@ -10,6 +10,7 @@ from robot_adapters.base import PRIMITIVES
 
 if TYPE_CHECKING:
     from robot_adapters.base import Adapter
+    from robot_adapters.low_level import Plant
     from robot_adapters.tasks.base import Task
 
 SHAPES = {"block", "area", "thing", "fixture", "slider"}
@@ -58,6 +59,12 @@ class KinematicFactory:
 
         chosen = KinematicSettings.model_validate(settings.model_dump())
         return KinematicAdapter(task_by_name(task, chosen.layout), chosen)
+
+    def low_level(self, task: Task) -> Plant:
+        """The task for control step by step (`Commandable` of `low_level.py`)."""
+        from robot_adapters.kinematic.plant import KinematicPlant  # noqa: PLC0415  as above
+
+        return KinematicPlant(task)
 
 
 FACTORY = KinematicFactory()

@@ -120,6 +120,23 @@ class World:
         Returns how far before `end` something that can't give way stopped it, m.
         """
         self.move(start)
+        return self._sweep(start, end)
+
+    def drive(self, target: Position) -> None:
+        """Go to `target` without planning: sideways, pushing if the fingers are closed, then up, or down to contact."""
+        if self.closed:
+            for axis in (0, 1):
+                end = list(self.gripper)
+                end[axis] = target[axis]
+                self._sweep(self.gripper, end)
+        here = self.gripper
+        x, y = here[:2] if self.closed else target[:2]
+        # what glides over a lip isn't lifted by it
+        lowest = min(self._lowest(x, y), here[2])
+        self._carry([x, y, max(target[2], lowest)])
+
+    def _sweep(self, start: Position, end: Position) -> float:
+        """See `push`; the gripper is at `start`."""
         axis = 0 if abs(end[0] - start[0]) >= abs(end[1] - start[1]) else 1
         sign = 1.0 if end[axis] >= start[axis] else -1.0
         if self.held is None:

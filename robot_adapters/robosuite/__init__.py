@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from robot_adapters.base import PRIMITIVES
-from robot_adapters.robosuite.scenes import stages
+from robot_adapters.robosuite.scenes import find, stages
 
 if TYPE_CHECKING:
     from robot_adapters.base import Adapter
+    from robot_adapters.low_level import Plant
     from robot_adapters.tasks.base import Task
 
 
@@ -19,6 +20,13 @@ class RobosuiteSettings(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
+    draw: bool = Field(
+        True, description="Whether there are cameras; without, a study pays for no pictures and needs no graphics."
+    )
+    stills: Literal["fast", "smooth"] = Field(
+        "fast",
+        description="The images that trainers judge: as fast as live video, or anti-aliased in 2.5 times the time.",
+    )
     jpeg_quality: int = Field(90, ge=30, le=100, description="JPEG quality of the images that trainers judge.")
     speed: float = Field(
         0.0, ge=0.0, le=20.0, description="Simulated seconds a second, for watching; 0 is as fast as it goes."
@@ -61,6 +69,19 @@ class RobosuiteFactory:
 
         chosen = RobosuiteSettings.model_validate(settings.model_dump())
         return RobosuiteAdapter(task_by_name(task, chosen.layout), chosen)
+
+    def low_level(self, task: Task) -> Plant:
+        """The task for control step by step (`Commandable` of `low_level.py`): physics without any graphics.
+
+        Raises:
+            Unavailable: robosuite can't be had; the remedy says what to install.
+        """
+        from robot_adapters.robosuite.graphics import load_robosuite  # noqa: PLC0415  as above
+
+        load_robosuite()
+        from robot_adapters.robosuite.simulator import Simulator  # noqa: PLC0415  once MuJoCo is loaded
+
+        return Simulator(task.objects, build=find(task.name))
 
 
 FACTORY = RobosuiteFactory()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 import uuid
 from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,6 +21,7 @@ from robot_adapters.base import (
     SkillSpec,
     StepHook,
     StopCheck,
+    Unavailable,
     check_call,
 )
 from robot_adapters.projection import overlay
@@ -29,17 +31,20 @@ from robot_adapters.skills import clear_yaw, run_skill
 from robot_adapters.tasks.base import Task
 from robot_adapters.tasks.episode import Episode
 
+if TYPE_CHECKING:
+    from robot_adapters.robosuite.cameras import Cameras
+
 
 class RobosuiteAdapter:
     """A Panda in simulation (`Adapter`). Use it on the thread that made it: its OpenGL context belongs to that one."""
 
     def __init__(self, task: Task, settings: RobosuiteSettings) -> None:
-        """Load the simulator, draw a first picture, and start an episode with seed 0.
+        """Load the simulator, draw a first picture if there are cameras, and start an episode with seed 0.
 
         Raises:
             Unavailable: simulator or graphics can't be had.
         """
-        backend, chosen_by = choose_backend()
+        backend, chosen_by = choose_backend() if settings.draw else ("none", "draw = false")
         load_robosuite()
         # only now: MuJoCo binds to its OpenGL at import
         from robot_adapters.robosuite.cameras import HEIGHT, WIDTH, Cameras  # noqa: PLC0415
@@ -50,25 +55,41 @@ class RobosuiteAdapter:
         self._task = task
         self._settings = settings
         self.simulator = Simulator(task.objects, settings.stepping, find(task.name))
-        self.cameras = Cameras(self.simulator.model, self.simulator.data)
-        self._calibrations = {name: self.cameras.calibration(name) for name in CAMERAS}
+        self._cameras: Cameras | None = None
+        if settings.draw:
+            smooth = settings.stills == "smooth"
+            self._cameras = Cameras(self.simulator.model, self.simulator.data, smooth_stills=smooth)
+        names = tuple(CAMERAS) if settings.draw else ()
+        self._calibrations = {name: self.cameras.calibration(name) for name in names}
         self._observation: Observation | None = None
         self._episode = Episode(task, self.simulator.scene)
         self.info = AdapterInfo(
             name="robosuite",
             simulated=True,
-            cameras=tuple(CAMERAS),
+            cameras=names,
             image_size=(WIDTH, HEIGHT),
             control_hz=float(CONTROL_HZ),
             details={
                 "graphics": backend,
                 "graphics_chosen_by": chosen_by,
+                "stills": settings.stills,
                 "robot": "Panda",
                 "controller": "OSC_POSE",
                 "stepping": settings.stepping,
             },
         )
         self.reset(0)
+
+    @property
+    def cameras(self) -> Cameras:
+        """What draws.
+
+        Raises:
+            Unavailable: nothing does.
+        """
+        if self._cameras is None:
+            raise Unavailable("there are no cameras", remedy="set draw to true")
+        return self._cameras
 
     def reset(self, seed: int | None = None) -> Observation:
         """Start an episode; the same seed gives the same start. None draws a fresh one."""
@@ -81,7 +102,8 @@ class RobosuiteAdapter:
     def observe(self) -> Observation:
         """State and images now. As long as nothing has moved it is the same observation, rendered once."""
         if self._observation is None:
-            frames = {name: self.cameras.frame(name, self._settings.jpeg_quality) for name in self.info.cameras}
+            quality = self._settings.jpeg_quality
+            frames = {name: self.cameras.frame(name, quality, still=True) for name in self.info.cameras}
             state = self._task.state(self._episode.scene())
             self._observation = Observation(uuid.uuid4().hex, state, frames, time.time())
         return self._observation
@@ -121,7 +143,13 @@ class RobosuiteAdapter:
         }
 
     def frame(self, camera: str) -> CameraFrame:
-        """One picture now, for live video."""
+        """One picture now, for live video.
+
+        Raises:
+            Unavailable: there is no such camera.
+        """
+        if camera not in self.info.cameras:
+            raise Unavailable(f"there is no camera {camera!r}", remedy="set draw to true and use left or right")
         return self.cameras.frame(camera, self._settings.live_jpeg_quality)
 
     def success(self) -> bool:
@@ -130,7 +158,8 @@ class RobosuiteAdapter:
 
     def close(self) -> None:
         """Release simulator and graphics."""
-        self.cameras.close()
+        if self._cameras is not None:
+            self._cameras.close()
         self.simulator.close()
 
     def _yaw(self, call: SkillCall, spec: SkillSpec) -> float:

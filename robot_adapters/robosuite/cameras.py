@@ -7,6 +7,7 @@ import importlib
 import io
 import math
 import os
+import threading
 import time
 from typing import Any
 
@@ -15,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from robot_adapters.base import CameraCalibration, CameraFrame, Unavailable
+from robot_adapters.base import AdapterError, CameraCalibration, CameraFrame, Unavailable
 from robot_adapters.projection import intrinsics
 from robot_adapters.robosuite.frames import BASE
 from robot_adapters.robosuite.graphics import BACKENDS, remedy
@@ -31,28 +32,34 @@ OFF = (mujoco.mjtRndFlag.mjRND_SHADOW, mujoco.mjtRndFlag.mjRND_REFLECTION, mujoc
 
 VISUAL = 1  # robosuite's group of what is for looks; 0 is for collisions
 
+SMOOTHING = 4  # samples a pixel of a smooth still: edges without steps, at two and a half times the time
+
+
+class WrongThread(AdapterError):
+    """A picture was asked for on another thread than the context's: OpenGL would draw it black, and say nothing."""
+
 
 class Cameras:
     """The OpenGL context with the scene in it. Create, use and close it on one thread, which owns it."""
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        """Make a context and draw once.
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, *, smooth_stills: bool = False) -> None:
+        """Make a context and draw once with it.
 
         Raises:
             Unavailable: there is no OpenGL, or it draws nothing but black.
         """
         self._model, self._data = model, data
+        self._owner = threading.get_ident()
         model.vis.global_.offwidth, model.vis.global_.offheight = WIDTH, HEIGHT
-        model.vis.quality.offsamples = 0
         model.vis.quality.shadowsize = 0
         backend = os.environ.get("MUJOCO_GL", "")
         try:
             self._gl = gl_context(backend)
             self._gl.make_current()
-            self._context = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100)
+            self._fast = _context(model, 0)
+            self._still = _context(model, SMOOTHING) if smooth_stills else self._fast
         except Exception as error:  # whatever a driver raises, the reader needs the same remedy
             raise Unavailable(f"no OpenGL context with MUJOCO_GL={backend}: {error}", remedy=remedy(backend)) from error
-        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._context)
         self._scene = mujoco.MjvScene(model, maxgeom=1000)
         for flag in OFF:
             self._scene.flags[flag] = 0
@@ -65,13 +72,28 @@ class Cameras:
         self._pixels = np.empty((HEIGHT, WIDTH, 3), dtype=np.uint8)
         # a context that outlives MuJoCo's own clean-up at exit complains on the console
         atexit.register(self.close)
-        refuse_black(self.render(next(iter(CAMERAS))), backend)
+        for still in (False, True):
+            refuse_black(self.render(next(iter(CAMERAS)), still=still), backend)
 
-    def render(self, camera: str, *, segmentation: bool = False) -> NDArray[np.uint8]:
-        """(480, 640, 3) RGB picture now, top row first; with `segmentation`, colours that `geoms` understands."""
+    def render(self, camera: str, *, still: bool = False, segmentation: bool = False) -> NDArray[np.uint8]:
+        """(480, 640, 3) RGB picture now, top row first, fast or as good as stills are.
+
+        With `segmentation`, in colours that `geoms` understands.
+
+        Raises:
+            WrongThread: this isn't the thread that made the context.
+        """
+        if threading.get_ident() != self._owner:
+            raise WrongThread(
+                "a picture was asked for on another thread than the cameras'",
+                remedy="use an adapter on the thread that built it, and only there",
+            )
+        context = self._still if still else self._fast
         # robosuite's invisible sites, a line through the gripper among them, would be drawn in a segmentation
         self._option.sitegroup[VISUAL] = not segmentation
-        self._gl.make_current()  # another adapter of this thread may have drawn since
+        # another adapter of this thread may have drawn since, or a still
+        self._gl.make_current()
+        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, context)
         self._camera.fixedcamid = self._model.camera(camera).id
         mujoco.mjv_updateScene(
             self._model, self._data, self._option, None, self._camera, mujoco.mjtCatBit.mjCAT_ALL, self._scene
@@ -79,8 +101,8 @@ class Cameras:
         self._scene.flags[mujoco.mjtRndFlag.mjRND_SEGMENT] = segmentation
         self._scene.flags[mujoco.mjtRndFlag.mjRND_IDCOLOR] = segmentation
         viewport = mujoco.MjrRect(0, 0, WIDTH, HEIGHT)
-        mujoco.mjr_render(viewport, self._scene, self._context)
-        mujoco.mjr_readPixels(self._pixels, None, viewport, self._context)
+        mujoco.mjr_render(viewport, self._scene, context)
+        mujoco.mjr_readPixels(self._pixels, None, viewport, context)
         return np.ascontiguousarray(self._pixels[::-1])
 
     def geoms(self, camera: str) -> NDArray[np.int64]:
@@ -94,11 +116,11 @@ class Cameras:
         at: NDArray[np.int64] = known[np.where((index >= 0) & (index < self._scene.ngeom), index, -1)]
         return at
 
-    def frame(self, camera: str, quality: int) -> CameraFrame:
+    def frame(self, camera: str, quality: int, *, still: bool = False) -> CameraFrame:
         """A JPEG now."""
         taken_at = time.time()
         buffer = io.BytesIO()
-        Image.fromarray(self.render(camera)).save(buffer, "JPEG", quality=quality)
+        Image.fromarray(self.render(camera, still=still)).save(buffer, "JPEG", quality=quality)
         return CameraFrame(camera, buffer.getvalue(), WIDTH, HEIGHT, taken_at)
 
     def calibration(self, camera: str) -> CameraCalibration:
@@ -114,8 +136,15 @@ class Cameras:
     def close(self) -> None:
         """Free the context, on the thread that made it."""
         atexit.unregister(self.close)
-        self._context.free()
+        for context in {self._fast, self._still}:
+            context.free()
         self._gl.free()
+
+
+def _context(model: mujoco.MjModel, samples: int) -> mujoco.MjrContext:
+    """The model uploaded to the current OpenGL, to be drawn off-screen with so many samples a pixel."""
+    model.vis.quality.offsamples = samples
+    return mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100)
 
 
 def gl_context(backend: str) -> Any:

@@ -60,7 +60,9 @@ def load_robosuite() -> None:
     except (ImportError, RuntimeError, AttributeError, OSError) as error:
         raise Unavailable(f"MuJoCo can't load with MUJOCO_GL={backend}: {error}", remedy=remedy(backend)) from error
     finally:
-        if backend is not None:
+        if backend is None:
+            os.environ.pop("MUJOCO_GL", None)
+        else:
             os.environ["MUJOCO_GL"] = backend
 
 

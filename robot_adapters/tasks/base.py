@@ -33,6 +33,11 @@ def state_bounds(fields: tuple[StateField, ...]) -> tuple[Array, Array]:
     return np.array(low, dtype=np.float64), np.array(high, dtype=np.float64)
 
 
+def entry_names(fields: tuple[StateField, ...]) -> tuple[str, ...]:
+    """A name for each number of the state vector: a field's own, with its index where the field has several."""
+    return tuple(f.name if f.size == 1 else f"{f.name}[{i}]" for f in fields for i in range(f.size))
+
+
 def position_fields(fields: tuple[StateField, ...]) -> tuple[int, ...]:
     """Where in the state vector an x stands with its y right after: fields of two or three numbers in m."""
     starts, at = [], 0

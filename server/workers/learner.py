@@ -20,8 +20,8 @@ import numpy as np
 
 from agent.algorithm import AgentError, Algorithm, AlgorithmFactory, Label, Problem
 from robot_adapters import registry
-from robot_adapters.base import SkillCall
-from robot_adapters.tasks.base import Task, position_fields, state_bounds
+from robot_adapters.base import InvalidCall, SkillCall, check_call
+from robot_adapters.tasks.base import Task, entry_names, position_fields, state_bounds
 from server.workers.channel import Pipes, Refusal, answer, open_pipes
 
 log = logging.getLogger(__name__)
@@ -96,6 +96,7 @@ class Learner:
             "skill": s.call.skill,
             "parameters": [float(p) for p in s.call.parameters],
             "predicted_feedback": float(s.predicted_feedback),
+            "uncertainty": None if s.uncertainty is None else float(s.uncertainty),
             "skill_probabilities": {k: float(v) for k, v in s.skill_probabilities.items()},
         } | self._status()
 
@@ -195,8 +196,20 @@ def serve(pipes: Pipes) -> None:
 
 
 def _label(task: Task, stored: Mapping[str, Any]) -> Label:
+    """Stored feedback, as long as it is about the task as it is today."""
     state = np.array(stored["state"], dtype=np.float64)
     call = SkillCall(stored["skill"], tuple(stored["parameters"]))
+    size = sum(field.size for field in task.state_fields)
+    try:
+        if state.shape != (size,):
+            raise InvalidCall(f"its state has {state.size} numbers, the task's has {size}", remedy="")
+        check_call(call, task.skills)
+    except InvalidCall as error:
+        raise Refusal(
+            f"feedback {stored['id']} doesn't fit the task {task.name!r}: {error}",
+            remedy="the task was changed after this feedback was given: put it back as it was and resume, or create a"
+            " new experiment",
+        ) from error
     return Label(stored["id"], state, call, stored["value"], near(task, state, call))
 
 
@@ -207,6 +220,7 @@ def _problem(task: Task) -> Problem:
         low,
         high,
         task.skills,
+        state_names=entry_names(task.state_fields),
         keypoints=task.keypoints,
         position_fields=position_fields(task.state_fields),
     )

@@ -13,11 +13,13 @@ VERDICTS: tuple[Verdict | None, ...] = (*Verdict, None)
 
 def test_opens_for_exactly_one_kind_of_situation() -> None:
     opened = 0
-    for mode, verdict, lifecycle, halted, simulated, operator, inside, current in itertools.product(
-        Mode, VERDICTS, Lifecycle, BOTH, BOTH, BOTH, BOTH, BOTH
+    for mode, verdict, lifecycle, halted, simulated, operator, inside, current, critic, rule in itertools.product(
+        Mode, VERDICTS, Lifecycle, *[BOTH] * 7
     ):
         decision = gate.decide(
             mode=mode,
+            by_critic=critic,
+            auto_approval=rule,
             verdict=verdict,
             lifecycle=lifecycle,
             halted=halted,
@@ -34,11 +36,15 @@ def test_opens_for_exactly_one_kind_of_situation() -> None:
             and (simulated or operator)
             and inside
             and current
+            and (not critic or (simulated and rule))
         )
         assert decision.allowed == expected
+        assert not (decision.allowed and critic and not simulated)  # whatever else holds
         assert (decision.reason == "open") == expected
         opened += expected
-    assert opened == 3  # a simulator with and without an operator, and a real robot with one
+    # with a person's verdict a simulator with and without an operator and a real robot with one, rule or not; with the
+    # critic's a simulator, where there is a rule
+    assert opened == 3 * 2 + 2
 
 
 def test_an_evaluation_moves_simulators_only_and_never_beside_training() -> None:
@@ -68,6 +74,8 @@ def test_an_evaluation_moves_simulators_only_and_never_beside_training() -> None
 def test_the_reason_names_what_is_in_the_way() -> None:
     shut = gate.decide(
         mode=Mode.PROPOSE_ONLY,
+        by_critic=False,
+        auto_approval=False,
         verdict=Verdict.GOOD,
         lifecycle=Lifecycle.RUNNING,
         halted=False,

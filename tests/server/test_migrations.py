@@ -68,6 +68,8 @@ async def test_a_database_of_the_first_version_keeps_every_row_through_every_upg
         assert experiment.teacher_settings == {}
         assert (experiment.counters.feedback, experiment.counters.low_level_steps) == (1, 40)
         assert (await store.proposal(1)).verdict is Verdict.GOOD
+        assert (await store.proposal(1)).verdict_source == "trainers"
+        assert (await store.proposal(1)).uncertainty is None
         assert (await store.proposal(2)).close_reason is CloseReason.TIMED_OUT
         assert [f.click_id for f in (await store.feedback_of_experiment(1)).items] == ["click-0002", "click-0001"]
         assert [(label.feedback_id, label.parameters) for label in await store.labels(1)] == [(1, (0.5,))]

@@ -75,9 +75,10 @@ async def test_while_one_robot_moves_the_proposals_of_the_others_are_judged(tmp_
         await s.judge(again[1], 1)
         both = await moving(s, at, 0, 1)
         assert {e.proposal_id for e in both.values()} == {first[0].id, first[1].id}
-        for execution in both.values():
-            ended = await s.seen.next(ExecutionEnded, at, where=lambda e, i=execution.id: e.execution.id == i)
-            assert ended.execution.parameters == first[execution.robot].parameters
+        await s.seen.until(lambda: len(s.seen.of(ExecutionEnded)) == 2)
+        for ended in s.seen.of(ExecutionEnded):
+            assert ended.execution.outcome is ExecutionOutcome.SUCCEEDED
+            assert ended.execution.parameters == first[ended.execution.robot].parameters
         after = await queue(s, experiment.id, 3)
         assert after[2].id == first[2].id
         counters = (await s.hub.view(experiment.id)).counters

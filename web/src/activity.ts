@@ -38,7 +38,11 @@ export function activity(state: TrainerState, drawn: boolean): Activity {
 
 function running(state: TrainerState, drawn: boolean): Activity {
   const { execution, proposal, experiment } = state;
-  if (execution) return { tone: "moving", text: `Executing ${execution.skill}, live video` };
+  if (execution) {
+    const critic = proposal?.id === execution.proposal_id && proposal.verdict_source === "critic";
+    const why = critic ? ", approved by the critic" : "";
+    return { tone: "moving", text: `Executing ${execution.skill}${why}, live video` };
+  }
   if (experiment?.phase === "evaluating") return evaluating(state);
   if (proposal && isOpen(proposal) && proposal.purpose !== "evaluation") return waiting(state, drawn);
   switch (experiment?.phase) {

@@ -637,6 +637,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/experiments/{experiment_id}/calibration": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Calibration
+         * @description Reliability curve of the predicted feedback, as it was predicted when each proposal was made.
+         */
+        get: operations["get_calibration"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/experiments/{experiment_id}/auto-approval": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Auto Approval
+         * @description What the critic approved by itself, and how often trainers agreed where it was checked.
+         */
+        get: operations["get_auto_approval"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/health": {
         parameters: {
             query?: never;
@@ -1084,6 +1124,129 @@ export interface components {
             };
         };
         /**
+         * AutoApproval
+         * @description When the critic may approve a proposal by itself. Simulated robots only; the critics must be two or more.
+         */
+        AutoApproval: {
+            /**
+             * Predicted At Least
+             * @description least predicted feedback
+             * @default 0.9
+             */
+            predicted_at_least: number;
+            /**
+             * Uncertainty At Most
+             * @description most disagreement of the critics
+             * @default 0.1
+             */
+            uncertainty_at_most: number;
+            /**
+             * After Feedback
+             * @description feedback that must be stored before
+             * @default 50
+             */
+            after_feedback: number;
+            /**
+             * Audit Every
+             * @description one of so many qualifying proposals goes to a trainer anyway; 1: all of them
+             * @default 10
+             */
+            audit_every: number;
+            /**
+             * Agreement At Least
+             * @description share of audited proposals that trainers must call good; suspended once the 95 % interval of the newest audits lies below it
+             * @default 0.9
+             */
+            agreement_at_least: number;
+        };
+        /**
+         * AutoApprovalRecord
+         * @description What the critic approved by itself, and what trainers said of the proposals that were held back to check it.
+         */
+        AutoApprovalRecord: {
+            /** Experiment Id */
+            experiment_id: number;
+            /** @description null: off */
+            rule: components["schemas"]["AutoApproval"] | null;
+            /**
+             * Suspended
+             * @description why auto-approval has suspended itself; setting it anew lifts it
+             */
+            suspended: string | null;
+            /**
+             * Approved
+             * @description proposals approved by the critic, since the experiment began
+             */
+            approved: number;
+            /**
+             * Audited
+             * @description newest audits that trainers judged, since the rule was set
+             */
+            audited: number;
+            /**
+             * Agreed
+             * @description those of them that trainers called good
+             */
+            agreed: number;
+            /**
+             * Agreement
+             * @description agreed / audited; null before the first audit
+             */
+            agreement: number | null;
+            /**
+             * Interval
+             * @description Wilson's 95 % interval of the agreement
+             */
+            interval: [
+                number,
+                number
+            ];
+        };
+        /**
+         * Calibration
+         * @description Reliability curve of the critic: what it predicted when it proposed, against the first label that followed.
+         */
+        Calibration: {
+            /** Experiment Id */
+            experiment_id: number;
+            /**
+             * Labels
+             * @description labels that the curve is made of
+             */
+            labels: number;
+            /**
+             * Needed
+             * @description labels before which the curve says nothing
+             */
+            needed: number;
+            /**
+             * Error
+             * @description expected calibration error in units of feedback; null with fewer labels than needed
+             */
+            error: number | null;
+            /**
+             * Bins
+             * @description ascending; empty ones are left out
+             */
+            bins: components["schemas"]["CalibrationBin"][];
+        };
+        /**
+         * CalibrationBin
+         * @description Predictions between `low` and `high`: how many, their mean, and the mean of the labels that followed.
+         */
+        CalibrationBin: {
+            /** Low */
+            low: number;
+            /** High */
+            high: number;
+            /** Count */
+            count: number;
+            /** Predicted */
+            predicted: number;
+            /** Label */
+            label: number;
+        };
+        /**
          * Checkpoint
          * @description A saved learner.
          */
@@ -1264,6 +1427,11 @@ export interface components {
              * @default 0
              */
             violations: number;
+            /**
+             * Auto Approved
+             * @default 0
+             */
+            auto_approved: number;
         };
         /**
          * Evaluation
@@ -1490,6 +1658,12 @@ export interface components {
              * @description why it failed, with the remedy
              */
             failure: string | null;
+            auto_approval: components["schemas"]["AutoApproval"] | null;
+            /**
+             * Auto Approval Suspended
+             * @description why auto-approval has suspended itself; setting it anew lifts it
+             */
+            auto_approval_suspended: string | null;
             counters: components["schemas"]["Counters"];
             /**
              * Created At
@@ -1602,6 +1776,7 @@ export interface components {
              * @description true: owed gradient steps are worked off before the next proposal, so a run can be repeated exactly; false: they run while the human thinks; null: true with a teacher, else false
              */
             lockstep?: boolean | null;
+            auto_approval?: components["schemas"]["AutoApproval"] | null;
         };
         /**
          * ExperimentPage
@@ -1623,6 +1798,7 @@ export interface components {
             mode?: components["schemas"]["Mode"] | null;
             /** Feedback Timeout */
             feedback_timeout?: number | null;
+            auto_approval?: components["schemas"]["AutoApproval"] | null;
         };
         /**
          * Feedback
@@ -1971,6 +2147,11 @@ export interface components {
             digest: string;
             /** Predicted Feedback */
             predicted_feedback: number;
+            /**
+             * Uncertainty
+             * @description how far the critics disagree, a standard deviation of predicted feedback; null: not known
+             */
+            uncertainty: number | null;
             /** Skill Probabilities */
             skill_probabilities: {
                 [key: string]: number;
@@ -1993,6 +2174,13 @@ export interface components {
             closed_at: string | null;
             close_reason: components["schemas"]["CloseReason"] | null;
             verdict: components["schemas"]["Verdict"] | null;
+            verdict_source: components["schemas"]["VerdictSource"] | null;
+            /**
+             * Audit
+             * @description the critic would have approved it; a trainer was asked to check the critic
+             * @default false
+             */
+            audit: boolean;
             gate: components["schemas"]["GateDecision"] | null;
             /**
              * Purpose
@@ -2205,6 +2393,12 @@ export interface components {
          * @enum {string}
          */
         Verdict: "good" | "neutral" | "bad";
+        /**
+         * VerdictSource
+         * @description Who a verdict is by. `critic`: auto-approval in simulation; there is no feedback, and nothing learns from it.
+         * @enum {string}
+         */
+        VerdictSource: "trainers" | "critic" | "evaluation";
         /**
          * View
          * @description One camera's still image of the observation, with the overlay that was computed on it.
@@ -4742,6 +4936,143 @@ export interface operations {
             };
             /** @description A foreign page, or a foreign host name */
             403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_calibration: {
+        parameters: {
+            query?: {
+                /** @description newest judged proposals that count: the critic changes */
+                newest?: number;
+            };
+            header?: never;
+            path: {
+                experiment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Calibration"];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_auto_approval: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                experiment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AutoApprovalRecord"];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -2,6 +2,9 @@
 import type {
   AdapterInfo,
   AlgorithmInfo,
+  AutoApproval,
+  AutoApprovalRecord,
+  Calibration,
   Evaluation,
   Experiment,
   ExperimentCreate,
@@ -108,6 +111,15 @@ export const act = (id: number, verb: Verb) => request<Experiment>("POST", `/exp
 
 export const setMode = (id: number, mode: Mode) =>
   request<Experiment>("PATCH", `/experiments/${id}`, { mode });
+
+/** `{}` is the rule with its defaults, null turns it off. */
+export const setAutoApproval = (id: number, rule: Partial<AutoApproval> | null) =>
+  request<Experiment>("PATCH", `/experiments/${id}`, { auto_approval: rule });
+
+export const calibration = (id: number) => request<Calibration>("GET", `/experiments/${id}/calibration`);
+
+export const autoApproval = (id: number) =>
+  request<AutoApprovalRecord>("GET", `/experiments/${id}/auto-approval`);
 
 export const evaluate = (id: number, rollouts: number) =>
   request<Evaluation>("POST", `/experiments/${id}/evaluate`, { rollouts });

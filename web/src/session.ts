@@ -87,6 +87,10 @@ export class Session {
     await this.guard(http.setMode(this.id, mode));
   }
 
+  async setAutoApproval(on: boolean): Promise<void> {
+    await this.guard(http.setAutoApproval(this.id, on ? {} : null));
+  }
+
   async evaluate(rollouts: number): Promise<void> {
     try {
       await http.evaluate(this.id, rollouts);

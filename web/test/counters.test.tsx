@@ -16,7 +16,11 @@ describe("counters", () => {
   });
 
   it("has no share before the first decision", () => {
-    expect(violationRatio({ feedback: 0, violations: 0 })).toBe("–");
-    expect(violationRatio({ feedback: 10, violations: 0 })).toBe("0.0 %");
+    expect(violationRatio({ feedback: 0, auto_approved: 0, violations: 0 })).toBe("–");
+    expect(violationRatio({ feedback: 10, auto_approved: 0, violations: 0 })).toBe("0.0 %");
+  });
+
+  it("counts what the critic decided among the decisions", () => {
+    expect(violationRatio({ feedback: 30, auto_approved: 70, violations: 2 })).toBe("2.0 %");
   });
 });

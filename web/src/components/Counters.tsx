@@ -5,9 +5,12 @@ export function goodShare({ feedback, good }: { feedback: number; good: number }
   return feedback === 0 ? "–" : `${Math.round((100 * good) / feedback)} %`;
 }
 
-/** Violations over decision steps, which are proposals that were judged. */
-export function violationRatio({ feedback, violations }: { feedback: number; violations: number }): string {
-  return feedback === 0 ? "–" : `${((100 * violations) / feedback).toFixed(1)} %`;
+/** Violations over decision steps, which are proposals that were judged, by trainers or by the critic. */
+export function violationRatio(
+  counters: Pick<Experiment["counters"], "feedback" | "auto_approved" | "violations">,
+) {
+  const decisions = counters.feedback + counters.auto_approved;
+  return decisions === 0 ? "–" : `${((100 * counters.violations) / decisions).toFixed(1)} %`;
 }
 
 export function Counters({ counters }: { counters: Experiment["counters"] }) {

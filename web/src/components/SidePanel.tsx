@@ -4,6 +4,7 @@ import * as http from "../http";
 import type { Session } from "../session";
 import type { TrainerState } from "../state";
 import type { Experiment, Mode, Proposal } from "../wire";
+import { AutoApprovalPanel } from "./AutoApproval";
 import { Counters } from "./Counters";
 import type { Question } from "./Dialog";
 import { EvaluationPanel } from "./Evaluation";
@@ -62,6 +63,13 @@ export function SidePanel({ state, experiment, proposal, session, onAsk }: SideP
       <Counters counters={experiment.counters} />
       <Thought proposal={proposal} />
       <ModeSwitch mode={experiment.mode} onChange={changeMode} />
+      {simulated && (
+        <AutoApprovalPanel
+          experiment={experiment}
+          onAsk={onAsk}
+          onSet={(on) => void session.setAutoApproval(on)}
+        />
+      )}
       {simulated && (
         <EvaluationPanel
           evaluation={state.evaluation}

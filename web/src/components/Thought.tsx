@@ -1,15 +1,14 @@
 // What the agent thinks: the next subgoal, the feedback it expects, how likely each skill was.
 import type { Proposal } from "../wire";
+import { signed } from "./Calibration";
 
-function signed(value: number): string {
-  const digits = Math.abs(value).toFixed(2);
-  if (digits === "0.00") return digits;
-  return value < 0 ? `−${digits}` : `+${digits}`;
-}
+const bound = (value: number) => Math.max(-1, Math.min(1, value));
+const along = (value: number) => 50 + 50 * bound(value);
 
-function Gauge({ value }: { value: number }) {
-  const bounded = Math.max(-1, Math.min(1, value));
+function Gauge({ value, uncertainty }: { value: number; uncertainty: number | null }) {
+  const bounded = bound(value);
   const half = Math.abs(bounded) * 50;
+  const [low, high] = [along(value - (uncertainty ?? 0)), along(value + (uncertainty ?? 0))];
   return (
     <div className="gauge-row">
       <span className="soft">Expects</span>
@@ -25,8 +24,16 @@ function Gauge({ value }: { value: number }) {
           data-tone={bounded < 0 ? "bad" : "good"}
           style={{ left: `${bounded < 0 ? 50 - half : 50}%`, width: `${half}%` }}
         />
+        {uncertainty !== null && <i className="reach" style={{ left: `${low}%`, width: `${high - low}%` }} />}
       </div>
-      <b data-testid="predicted-feedback">{signed(value)}</b>
+      <span className="number">
+        <b data-testid="predicted-feedback">{signed(value)}</b>
+        {uncertainty !== null && (
+          <span className="soft" data-testid="uncertainty" title="How far the critics disagree">
+            {` ± ${uncertainty.toFixed(2)}`}
+          </span>
+        )}
+      </span>
     </div>
   );
 }
@@ -53,7 +60,12 @@ export function Thought({ proposal }: { proposal: Proposal | null }) {
           <h2>
             Predicted feedback <abbr title="The human critic's estimate of your click">Ĥ</abbr>
           </h2>
-          <Gauge value={proposal.predicted_feedback} />
+          <Gauge value={proposal.predicted_feedback} uncertainty={proposal.uncertainty} />
+          {proposal.uncertainty === null && (
+            <p className="hint" data-testid="uncertainty-unknown">
+              How sure it is isn't known: that takes two critics or more.
+            </p>
+          )}
         </div>
         {skills.length > 0 && (
           <div>

@@ -2,6 +2,7 @@
 import { useEffect, useMemo, useState } from "react";
 import { activity } from "../activity";
 import { ActivityLine } from "../components/ActivityLine";
+import { CalibrationPanel } from "../components/Calibration";
 import { ConnectionState } from "../components/ConnectionState";
 import { Curve } from "../components/Curve";
 import { Confirm, type Question } from "../components/Dialog";
@@ -95,6 +96,7 @@ export function TrainerPage({ id }: { id: number }) {
               />
             </div>
             <Curve curve={state.curve} />
+            {experiment && <CalibrationPanel experiment={experiment} />}
           </div>
           {experiment && (
             <SidePanel

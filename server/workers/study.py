@@ -1,0 +1,31 @@
+"""What a study's processes build their surroundings with: tasks, robots and low-level environments by name."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from agent.study.algorithms import Builders
+from agent.study.low_level import Env
+from robot_adapters import low_level, registry
+from robot_adapters.base import Adapter
+
+
+def builders(adapter: str) -> Builders:
+    """Everything on this adapter. It can be sent to another process.
+
+    Raises:
+        UnknownName: there is no such adapter.
+    """
+    registry.adapter(adapter)
+    return Builders(registry.task, partial(_robot, adapter), partial(_environment, adapter))
+
+
+def _robot(adapter: str, task: str) -> Adapter:
+    factory = registry.adapter(adapter)
+    # nobody looks at a study's pictures
+    chosen = {"draw": False} if "draw" in factory.settings.model_fields else {}
+    return factory(task, factory.settings.model_validate(chosen))
+
+
+def _environment(adapter: str, task: str) -> Env:
+    return low_level.make(task, adapter)
