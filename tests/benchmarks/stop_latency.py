@@ -17,8 +17,8 @@ import numpy as np
 import uvicorn
 
 from server.app import create_app
-from server.crew import Crew
 from server.crew_values import Done
+from server.robots import Robot
 from server.schemas import ExperimentCreate
 from server.service import Service, opened
 from server.settings import Settings
@@ -46,21 +46,21 @@ def run() -> Result:
 async def _measure(speed: float, stops: int) -> list[float]:
     """Ms from sending the request to the last set-point; 0 where that had come already."""
     motions: asyncio.Queue[Done] = asyncio.Queue()
-    execute = Crew.execute
+    execute = Robot.execute
 
-    async def watched(self: Crew, *arguments: Any) -> Done:
+    async def watched(self: Robot, *arguments: Any) -> Done:
         done = await execute(self, *arguments)
         motions.put_nowait(done)
         return done
 
-    Crew.execute = watched  # type: ignore[method-assign,assignment]
+    Robot.execute = watched  # type: ignore[method-assign,assignment]
     try:
         with tempfile.TemporaryDirectory() as directory:
             settings = Settings(data_dir=Path(directory), create_first_experiment=False, log_level="error")
             async with opened(settings) as service, _client(service) as client:
                 return [t async for t in _stops(service, client, motions, speed, stops)]
     finally:
-        Crew.execute = execute  # type: ignore[method-assign]
+        Robot.execute = execute  # type: ignore[method-assign]
 
 
 async def _stops(

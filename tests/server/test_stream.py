@@ -276,6 +276,22 @@ async def test_frames_come_one_at_a_time_and_the_newest_of_each_camera_wins(tmp_
             assert (await frame(viewer))[1] == b"left 100"
 
 
+async def test_pictures_of_one_robot_take_no_place_of_anothers(tmp_path: Path) -> None:
+    async with serving(tmp_path) as live:
+        experiment = await live.experiment(num_envs=2)
+        async with live.stream(experiment) as viewer:
+            await heard(viewer)
+            for number, robot in enumerate((0, 1, 0, 1)):
+                told = header("left", number).model_copy(update={"robot": robot})
+                live.service.rooms.publish_frame(experiment, told, b"robot %d" % robot)
+            shown = []
+            for _ in range(2):
+                told_header, picture = await frame(viewer)
+                shown.append((told_header["robot"], picture))
+                await say(viewer, type="frame_ack")
+            assert sorted(shown) == [(0, b"robot 0"), (1, b"robot 1")]
+
+
 async def _deaf(live: Serving, experiment: int) -> socket.socket:
     """A viewer that shakes hands and then never reads again."""
     client = socket.socket()

@@ -125,6 +125,7 @@ async def test_an_approved_call_runs_and_is_filmed_by_both_cameras(robot: Robot)
         ({"digest": "0" * 64}, "not the approved parameters"),
         ({"parameters": [0.6, 0.1, -0.04]}, "not the approved parameters"),
         ({"execution_id": None}, "without a proposal"),
+        ({"robot": 1}, "approved for robot 2, and this is robot 1"),
     ],
 )
 async def test_a_call_that_nobody_approved_never_moves(robot: Robot, changes: dict[str, Any], why: str) -> None:

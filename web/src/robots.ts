@@ -21,7 +21,7 @@ export function queueOf(robots: RobotState[]): Proposal[] {
   return open.sort((one, other) => one.number - other.number);
 }
 
-/** The chosen robot; else the one whose turn it is to be judged, else one that moves; `before` as long as that fits. */
+/** The chosen robot; else the one whose turn it is to be judged; else the one before, which may move by that click. */
 export function shownRobot(
   robots: RobotState[],
   chosen: number | null,
@@ -31,9 +31,12 @@ export function shownRobot(
   if (chosen !== null && chosen < robots.length) return chosen;
   const [next] = judged ? queueOf(robots) : [];
   if (next) return next.robot;
-  if (before < robots.length && (!judged || robots[before]?.execution)) return before;
-  const moving = robots.findIndex(({ execution }) => execution !== null);
-  return moving >= 0 ? moving : Math.min(before, robots.length - 1);
+  const stays = robots[before];
+  if (stays && (!judged || stays.proposal || stays.execution)) return before;
+  return Math.max(
+    0,
+    robots.findIndex(({ execution }) => execution !== null),
+  );
 }
 
 /** "Robot 2: " where there are several, at the start of a sentence about one. */
