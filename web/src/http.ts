@@ -112,8 +112,8 @@ export const act = (id: number, verb: Verb) => request<Experiment>("POST", `/exp
 export const setMode = (id: number, mode: Mode) =>
   request<Experiment>("PATCH", `/experiments/${id}`, { mode });
 
-/** `{}` is the rule with its defaults, null turns it off. */
-export const setAutoApproval = (id: number, rule: Partial<AutoApproval> | null) =>
+/** Null turns it off. */
+export const setAutoApproval = (id: number, rule: AutoApproval | null) =>
   request<Experiment>("PATCH", `/experiments/${id}`, { auto_approval: rule });
 
 export const calibration = (id: number) => request<Calibration>("GET", `/experiments/${id}/calibration`);

@@ -84,7 +84,6 @@ export function TrainerPage({ id }: { id: number }) {
               />
             </div>
             <Curve curve={state.curve} />
-            {experiment && <CalibrationPanel experiment={experiment} />}
           </div>
           {experiment && (
             <SidePanel
@@ -95,6 +94,7 @@ export function TrainerPage({ id }: { id: number }) {
               onAsk={setQuestion}
             />
           )}
+          {experiment && <CalibrationPanel experiment={experiment} />}
         </div>
       </main>
       <Notices notices={state.notices} onDismiss={session.dismiss} />

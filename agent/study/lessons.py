@@ -1,0 +1,94 @@
+"""Teaching a learner by a task's own judge, in process: what the studies of claims share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Protocol
+
+import numpy as np
+
+from agent.algorithm import Algorithm, Label, Problem
+from agent.config import SEED, SeedSettings
+from agent.study.episodes import SkillEpisodes
+from agent.study.scenes import across_the_table
+from robot_adapters.base import Adapter, Array, SkillCall
+from robot_adapters.tasks.base import Task, position_fields, state_bounds
+
+FIRST_START = 10_000
+"""Seed of the first of the starts that rollouts share; training starts from lower ones."""
+
+Stage = Callable[[Task], Adapter]
+"""Builds a robot that stages a task. Studies are handed it: which robot it is, they don't know."""
+Policy = Callable[[Array], SkillCall]
+
+
+class Pupil(Protocol):
+    """One learner or several, of which one is asked in each state."""
+
+    def at(self, state: Array) -> tuple[Algorithm, Array]:
+        """Who is asked in this state (n,), and the state that it is told."""
+
+
+def whole_problem(task: Task) -> Problem:
+    """What a learner of the whole task is told; positions bounded by the table, as those of pieces are."""
+    low, high = state_bounds(task.state_fields)
+    fields = position_fields(task.state_fields)
+    skills = across_the_table(*task.skills)
+    return Problem(task.name, low, high, skills, keypoints=task.keypoints, position_fields=fields)
+
+
+class Whole:
+    """One undivided learner, asked the same way."""
+
+    def __init__(self, task: Task, settings: SeedSettings, seed: int) -> None:
+        self.learner = SEED(whole_problem(task), settings, seed)
+
+    def at(self, state: Array) -> tuple[Algorithm, Array]:
+        """The learner, and what it is told."""
+        return self.learner, state
+
+
+def lessons(pupil: Pupil, task: Task, stage: Stage, *, seed: int, feedback: int) -> Iterator[int]:
+    """Algorithm 1 of the paper, judged by the task's own rule: so much feedback has been given after each."""
+    robot = SkillEpisodes(task, stage(task), first_subgoal=False)
+    try:
+        starts = np.random.default_rng(seed)
+        robot.begin(int(starts.integers(FIRST_START)))
+        for label_id in range(1, feedback + 1):
+            learner, told = pupil.at(robot.state)
+            call = kept(task, learner.propose(told).call)
+            value = task.judge(robot.state, call)
+            learner.add([Label(label_id, told, call, value)])
+            while learner.owed_updates:
+                learner.update()
+            if value == 1 and robot.execute(call).over:
+                robot.begin(int(starts.integers(FIRST_START)))
+            yield label_id
+    finally:
+        robot.close()
+
+
+def success(episodes: SkillEpisodes, policy: Policy, rollouts: int, *, least: float = 0.0) -> float:
+    """Share of deterministic rollouts from fixed starts that succeed; 0 as soon as `least` can't be reached."""
+    good = 0
+    for start in range(rollouts):
+        good += episodes.rollout(FIRST_START + start, policy)
+        if good + rollouts - start - 1 < least * rollouts - 1e-9:
+            return 0.0
+    return good / rollouts
+
+
+def deterministic(pupil: Pupil, task: Task) -> Policy:
+    """What the pupil would do, drawing nothing."""
+
+    def choose(state: Array) -> SkillCall:
+        learner, told = pupil.at(state)
+        return kept(task, learner.propose(told, deterministic=True).call)
+
+    return choose
+
+
+def kept(task: Task, call: SkillCall) -> SkillCall:
+    """The call with its parameters kept inside this task's bounds: learners here know only those of the table."""
+    spec = next(s for s in task.skills if s.name == call.skill)
+    return SkillCall(call.skill, tuple(np.clip(call.parameters, spec.low, spec.high).tolist()))
