@@ -18,7 +18,7 @@ import numpy as np
 from agent.algorithm import Algorithm, Problem
 from agent.config import SEED, SeedSettings
 from agent.study.episodes import SkillEpisodes
-from agent.study.lessons import Policy, Pupil, Stage, Whole, deterministic, kept, lessons, success
+from agent.study.lessons import Policy, Pupil, Stage, Whole, deterministic, kept, lessons, mean, success
 from agent.study.scenes import FurtherPan, SwappedHotdog, ThreeBlocks, TwoToys, across_the_table
 from robot_adapters.base import Array, SkillCall
 from robot_adapters.tasks import collecting_toy as collecting
@@ -297,13 +297,7 @@ def table_of(outcomes: Sequence[Outcome]) -> list[str]:
         failed = sum(o.anew.feedback is None for o in of)
         lost = f" ({failed} of {len(of)} not within {of[0].anew.budget})" if failed else ""
         rows.append(
-            f"| {name} | {_mean([100 * o.composed for o in of])} % | {_mean([100 * o.rebound for o in of])} % "
-            f"| {_mean([o.in_pieces for o in of])} | {_mean([o.anew.counted for o in of])}{lost} |"
+            f"| {name} | {mean([100 * o.composed for o in of])} % | {mean([100 * o.rebound for o in of])} % "
+            f"| {mean([o.in_pieces for o in of])} | {mean([o.anew.counted for o in of])}{lost} |"
         )
     return rows
-
-
-def _mean(values: Sequence[float]) -> str:
-    """Mean ± standard error."""
-    sem = np.std(values, ddof=1) / len(values) ** 0.5 if len(values) > 1 else 0.0
-    return f"{np.mean(values):.0f} ± {sem:.0f}"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Protocol
 
 import numpy as np
@@ -92,3 +92,9 @@ def kept(task: Task, call: SkillCall) -> SkillCall:
     """The call with its parameters kept inside this task's bounds: learners here know only those of the table."""
     spec = next(s for s in task.skills if s.name == call.skill)
     return SkillCall(call.skill, tuple(np.clip(call.parameters, spec.low, spec.high).tolist()))
+
+
+def mean(values: Sequence[float]) -> str:
+    """Mean ± standard error."""
+    sem = np.std(values, ddof=1) / len(values) ** 0.5 if len(values) > 1 else 0.0
+    return f"{np.mean(values):.0f} ± {sem:.0f}"

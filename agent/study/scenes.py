@@ -160,7 +160,7 @@ class SwappedHotdog(Boxed):
         skillet_held, _, sausage_held, cooked, _ = (bool(flag > 0.5) for flag in state[6:])
         if cooked:
             return 5 if sausage_held else 4
-        if not sausage_held and _lies_in_pan(state[:3], state[3:6]):
+        if not sausage_held and _liesin_pan(state[:3], state[3:6]):
             return 3 if skillet_held else 2
         return int(sausage_held)
 
@@ -196,11 +196,11 @@ class SwappedHotdog(Boxed):
 
     def _cooks(self, scene: Scene) -> bool:
         """Whether the sausage lies in the skillet on the stove, both let go of."""
-        lies = _lies_in_pan(scene.objects[hotdog.SAUSAGE], scene.objects[hotdog.SKILLET])
+        lies = _liesin_pan(scene.objects[hotdog.SAUSAGE], scene.objects[hotdog.SKILLET])
         return lies and scene.held != hotdog.SAUSAGE and self._on_stove(scene)
 
 
-def _lies_in_pan(sausage: Array, skillet: Array) -> bool:
+def _liesin_pan(sausage: Array, skillet: Array) -> bool:
     x, y, z = np.asarray(sausage) - skillet
     level = abs(z - hotdog.FLOOR_Z - hotdog.SAUSAGE_HALF[2]) <= hotdog.COOKING_Z
     return bool(math.hypot(x, y) <= hotdog.COOKING and level)
@@ -234,7 +234,7 @@ class FurtherPan(Boxed):
 
     def success(self, scene: Scene) -> bool:
         """Whether the toy lies inside the dustpan's rectangle."""
-        return _in_pan(scene, sweeping.TOY, PAN_THERE)
+        return in_pan(scene, sweeping.TOY, PAN_THERE)
 
     def violations(self, scene: Scene) -> tuple[SafetyViolation, ...]:
         """Those of Sweeping, but for a toy in the pan where that is now."""
@@ -285,7 +285,7 @@ class TwoToys(Boxed):
 
     def state(self, scene: Scene) -> Array:
         """(11,) as in Sweeping; Collecting's toy x, y, z in m, whether it is held, and whether it lies in the pan."""
-        flags = [float(scene.held == GUEST), float(_in_pan(scene, GUEST))]
+        flags = [float(scene.held == GUEST), float(in_pan(scene, GUEST))]
         return np.concatenate((self._one.state(scene), scene.objects[GUEST], flags), dtype=np.float64)
 
     def sample_layout(self, rng: np.random.Generator) -> dict[str, Array]:
@@ -295,11 +295,11 @@ class TwoToys(Boxed):
 
     def success(self, scene: Scene) -> bool:
         """Whether both toys lie in the dustpan."""
-        return self._one.success(scene) and _in_pan(scene, GUEST)
+        return self._one.success(scene) and in_pan(scene, GUEST)
 
     def violations(self, scene: Scene) -> tuple[SafetyViolation, ...]:
         """Those of Sweeping, and Collecting's toy out of reach."""
-        found = () if _in_pan(scene, GUEST) else misplaced(scene, GUEST, table.X, table.Y, "Collecting's toy")
+        found = () if in_pan(scene, GUEST) else misplaced(scene, GUEST, table.X, table.Y, "Collecting's toy")
         return (*self._one.violations(scene), *found)
 
     def subgoal(self, state: Array) -> int:
@@ -327,7 +327,7 @@ class TwoToys(Boxed):
         return np.array([at for name, all_ in points.items() if skill in {None, name} for at in all_]).reshape(-1, 3)
 
 
-def _in_pan(scene: Scene, name: str, pan: Vector = sweeping.PAN_AT) -> bool:
+def in_pan(scene: Scene, name: str, pan: Vector = sweeping.PAN_AT) -> bool:
     """Whether this toy lies in the dustpan, and nothing holds it."""
     x, y, z = scene.objects[name]
     inside = abs(x - pan[0]) <= sweeping.PAN_HALF[0] and abs(y - pan[1]) <= sweeping.PAN_HALF[1]
