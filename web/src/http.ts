@@ -14,6 +14,8 @@ import type {
   Mode,
   Problem,
   Proposal,
+  Study,
+  StudySummary,
   TaskInfo,
   TeacherInfo,
   Verb,
@@ -142,3 +144,11 @@ export async function metrics(id: number): Promise<MetricPoint[]> {
   } while (cursor);
   return points;
 }
+
+export const studies = () => request<StudySummary[]>("GET", "/studies");
+
+export const study = (name: string) => request<Study>("GET", `/studies/${encodeURIComponent(name)}`);
+
+/** Where a figure or table of a study can be had. */
+export const studyFile = (name: string, file: string) =>
+  `${ROOT}/studies/${encodeURIComponent(name)}/files/${encodeURIComponent(file)}`;
