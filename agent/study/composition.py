@@ -1,10 +1,11 @@
 """Reward composition (paper, introduction): critics of single subgoals, put together where they were never trained.
 
-A *piece* is a SEED learner of one subgoal. It is told where the subgoal acts (a key point) and nothing of the task, and
-learns from feedback which skill is right there, and with which parameters. A composition is a list of pieces in an
-order that its user writes down, each with the key point of the new scene at which it now acts. In every state, the
-critic of the current subgoal chooses the call. Beside it: the undivided learner of the whole task, asked in the new
-scene on states re-bound to what it knows; and a learner trained there anew.
+A *piece* is a SEED learner of one subgoal. It is told where the subgoal acts (a key point) and nothing else of the
+task. It learns from the labels that the learner of the whole task got while that subgoal was next: feedback doesn't ask
+who proposed, so the same clicks teach both. A composition is a list of pieces in an order that its user writes down,
+each with the key point of the new scene at which it now acts. In every state, the critic of the current subgoal
+chooses the call. Beside it: the undivided learner of the whole task, asked in the new scene on states re-bound to what
+it knows; and a learner trained there anew.
 """
 
 from __future__ import annotations
@@ -15,10 +16,10 @@ from typing import Any
 
 import numpy as np
 
-from agent.algorithm import Algorithm, Problem
+from agent.algorithm import Algorithm, Label, Problem
 from agent.config import SEED, SeedSettings
 from agent.study.episodes import SkillEpisodes
-from agent.study.lessons import Policy, Pupil, Stage, Whole, deterministic, kept, lessons, mean, success
+from agent.study.lessons import Lesson, Policy, Stage, deterministic, kept, learn, lessons, mean, success, whole
 from agent.study.scenes import FurtherPan, SwappedHotdog, ThreeBlocks, TwoToys, across_the_table
 from robot_adapters.base import Array, SkillCall
 from robot_adapters.tasks import collecting_toy as collecting
@@ -170,20 +171,6 @@ def piece(task: Task, settings: SeedSettings, seed: int) -> Algorithm:
     return SEED(problem, settings, seed)
 
 
-class Pieces:
-    """The pieces of one source task, as one policy of it: the current subgoal's piece chooses."""
-
-    def __init__(self, source: Source, task: Task, settings: SeedSettings, seed: int) -> None:
-        self._task, self._places = task, source.places
-        seeds = np.random.SeedSequence(seed).generate_state(len(source.places))
-        self.pieces = [piece(task, settings, int(s)) for s in seeds]
-
-    def at(self, state: Array) -> tuple[Algorithm, Array]:
-        """The current subgoal's piece, and what it is told: (3,) where it acts, m."""
-        stage = self._task.subgoal(state)
-        return self.pieces[stage], self._places[stage].of(self._task, state)
-
-
 @dataclass(frozen=True)
 class Trained:
     """What training came to. feedback: labels until 90 % of the rollouts succeeded; None if the budget ended before."""
@@ -197,36 +184,60 @@ class Trained:
         return self.budget if self.feedback is None else self.feedback
 
 
-def taught(pupil: Pupil, task: Task, stage: Stage, *, seed: int, budget: int, rollouts: int) -> Trained:
-    """Lessons until 90 % of the rollouts succeed or the budget ends."""
-    judged_on = SkillEpisodes(task, stage(task), first_subgoal=False)
-    try:
-        policy = deterministic(pupil, task)
-        for given in lessons(pupil, task, stage, seed=seed, feedback=budget):
-            if given % EVERY == 0 and success(judged_on, policy, rollouts, least=REACHED) >= REACHED:
-                return Trained(given, budget)
-        return Trained(None, budget)
-    finally:
-        judged_on.close()
+class Trial:
+    """Training a whole task until 90 % of the rollouts succeed and each subgoal was called good, or the budget ends."""
+
+    def __init__(self, task: Task, settings: SeedSettings, seed: int) -> None:
+        self._task = task
+        self._settings = settings
+        self._seed = seed
+        self.learner = whole(task, settings, seed)
+        self._lessons: list[tuple[int, Lesson]] = []
+        """Each with the subgoal that was next."""
+
+    def run(self, stage: Stage, budget: int, rollouts: int) -> Trained:
+        """Give the lessons."""
+        judged_on = SkillEpisodes(self._task, stage(self._task), first_subgoal=False)
+        try:
+            policy = deterministic(self.learner, self._task)
+            for lesson in lessons(self.learner, self._task, stage, seed=self._seed, feedback=budget):
+                self._lessons.append((self._task.subgoal(lesson.state), lesson))
+                served = {subgoal for subgoal, of in self._lessons if of.value == 1}
+                if lesson.number % EVERY or len(served) < len(self._task.subgoals):
+                    continue
+                if success(judged_on, policy, rollouts, least=REACHED) >= REACHED:
+                    return Trained(lesson.number, budget)
+            return Trained(None, budget)
+        finally:
+            judged_on.close()
+
+    def pieces(self, places: Sequence[Place]) -> list[Algorithm]:
+        """A piece for each subgoal, taught by the labels that were given while it was next."""
+        seeds = np.random.SeedSequence(self._seed).generate_state(len(places))
+        made = [piece(self._task, self._settings, int(s)) for s in seeds]
+        for subgoal, lesson in self._lessons:
+            at = places[subgoal].of(self._task, lesson.state)
+            learn(made[subgoal], [Label(lesson.number, at, lesson.call, lesson.value)])
+        return made
 
 
-def composed(composition: Composition, task: Task, pieces: Mapping[str, Pieces]) -> Policy:
+def composed(composition: Composition, task: Task, pieces: Mapping[str, Sequence[Algorithm]]) -> Policy:
     """The policy that asks, in each state, the critic of the subgoal that the user's order says is next."""
 
     def choose(state: Array) -> SkillCall:
         step = composition.steps[task.subgoal(state)]
-        learner = pieces[step.source].pieces[step.subgoal]
+        learner = pieces[step.source][step.subgoal]
         return kept(task, learner.propose(step.place.of(task, state), deterministic=True).call)
 
     return choose
 
 
-def rebound(composition: Composition, task: Task, wholes: Mapping[str, Whole]) -> Policy:
+def rebound(composition: Composition, task: Task, wholes: Mapping[str, Algorithm]) -> Policy:
     """The policy that asks the undivided learners of the source tasks on states they know."""
 
     def choose(state: Array) -> SkillCall:
         source, seen = composition.rebound(task, state)
-        return kept(task, wholes[source].learner.propose(seen, deterministic=True).call)
+        return kept(task, wholes[source].propose(seen, deterministic=True).call)
 
     return choose
 
@@ -235,15 +246,14 @@ def rebound(composition: Composition, task: Task, wholes: Mapping[str, Whole]) -
 class Outcome:
     """One composition and one seed. Success rates of policies that got no feedback in the new scene, and feedbacks.
 
-    in_pieces, as_a_whole: feedback that the source tasks took. anew: feedback that the new task itself takes.
+    sources: feedback that the source tasks took, of composed and re-bound alike. anew: that the new task itself takes.
     """
 
     name: str
     seed: int
     composed: float
     rebound: float
-    in_pieces: int
-    as_a_whole: int
+    sources: int
     anew: Trained
 
 
@@ -257,39 +267,32 @@ def run(stage: Stage, seeds: Sequence[int], *, rollouts: int = 100, preset: str 
 
 
 def _one_seed(stage: Stage, settings: SeedSettings, seed: int, rollouts: int) -> list[Outcome]:
-    pieces: dict[str, Pieces] = {}
-    wholes: dict[str, Whole] = {}
-    took: dict[str, tuple[int, int]] = {}
+    pieces: dict[str, list[Algorithm]] = {}
+    wholes: dict[str, Algorithm] = {}
+    took: dict[str, int] = {}
     for name, source in SOURCES.items():
-        task: Task = source.task()
-        pieces[name], wholes[name] = Pieces(source, task, settings, seed), Whole(task, settings, seed)
-        both = [
-            taught(pupil, task, stage, seed=seed, budget=source.budget, rollouts=rollouts).counted
-            for pupil in (pieces[name], wholes[name])
-        ]
-        took[name] = (both[0], both[1])
+        trial = Trial(source.task(), settings, seed)
+        took[name] = trial.run(stage, source.budget, rollouts).counted
+        wholes[name], pieces[name] = trial.learner, trial.pieces(source.places)
     outcomes = []
     for name, composition in COMPOSITIONS.items():
-        task = composition.task()
+        task: Task = composition.task()
         episodes = SkillEpisodes(task, stage(task), first_subgoal=False)
+        policies = (composed(composition, task, pieces), rebound(composition, task, wholes))
         try:
-            rates = [
-                success(episodes, policy, rollouts)
-                for policy in (composed(composition, task, pieces), rebound(composition, task, wholes))
-            ]
+            rates = [success(episodes, policy, rollouts) for policy in policies]
         finally:
             episodes.close()
-        used = {step.source for step in composition.steps}
-        anew = taught(Whole(task, settings, seed), task, stage, seed=seed, budget=composition.budget, rollouts=rollouts)
-        in_pieces, as_a_whole = (sum(took[source][i] for source in used) for i in (0, 1))
-        outcomes.append(Outcome(name, seed, rates[0], rates[1], in_pieces, as_a_whole, anew))
+        sources = sum(took[source] for source in {step.source for step in composition.steps})
+        anew = Trial(task, settings, seed).run(stage, composition.budget, rollouts)
+        outcomes.append(Outcome(name, seed, rates[0], rates[1], sources, anew))
     return outcomes
 
 
 def table_of(outcomes: Sequence[Outcome]) -> list[str]:
     """Markdown rows, one a composition: means over seeds ± their standard errors."""
     rows = [
-        "| scene | composed, no feedback | undivided, no feedback | feedback for the pieces | trained anew |",
+        "| scene | composed, no feedback | undivided, no feedback | feedback on the sources | feedback anew |",
         "|---|---|---|---|---|",
     ]
     for name in dict.fromkeys(o.name for o in outcomes):
@@ -298,6 +301,6 @@ def table_of(outcomes: Sequence[Outcome]) -> list[str]:
         lost = f" ({failed} of {len(of)} not within {of[0].anew.budget})" if failed else ""
         rows.append(
             f"| {name} | {mean([100 * o.composed for o in of])} % | {mean([100 * o.rebound for o in of])} % "
-            f"| {mean([o.in_pieces for o in of])} | {mean([o.anew.counted for o in of])}{lost} |"
+            f"| {mean([o.sources for o in of])} | {mean([o.anew.counted for o in of])}{lost} |"
         )
     return rows

@@ -19,12 +19,12 @@ from agent.study.lessons import (
     FIRST_START,
     Policy,
     Stage,
-    Whole,
     deterministic,
     kept,
     lessons,
     mean,
     success,
+    whole,
     whole_problem,
 )
 from agent.study.tidying import TidyUp
@@ -109,12 +109,12 @@ def _outcome(who: Demonstrator, stage: Stage, seed: int, steps: int, rollouts: i
     policies = [
         cloned(task, shown, SeedSettings(**{**recommended, **changed}), seed) for changed in (PLAIN, dict[str, Any]())
     ]
-    pupil = Whole(task, SeedSettings(**recommended), seed)
-    for _ in lessons(pupil, task, stage, seed=seed, feedback=steps):
+    learner = whole(task, SeedSettings(**recommended), seed)
+    for _ in lessons(learner, task, stage, seed=seed, feedback=steps):
         pass
     episodes = SkillEpisodes(task, stage(task), first_subgoal=False)
     try:
-        rates = [success(episodes, policy, rollouts) for policy in (*policies, deterministic(pupil, task))]
+        rates = [success(episodes, policy, rollouts) for policy in (*policies, deterministic(learner, task))]
     finally:
         episodes.close()
     return Outcome(who.name, seed, steps, *rates)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import Protocol
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -22,50 +22,52 @@ Stage = Callable[[Task], Adapter]
 Policy = Callable[[Array], SkillCall]
 
 
-class Pupil(Protocol):
-    """One learner or several, of which one is asked in each state."""
+@dataclass(frozen=True)
+class Lesson:
+    """One label: what was proposed in state (n,), and what the task's judge said of it."""
 
-    def at(self, state: Array) -> tuple[Algorithm, Array]:
-        """Who is asked in this state (n,), and the state that it is told."""
+    number: int
+    state: Array
+    call: SkillCall
+    value: int
+
+
+def whole(task: Task, settings: SeedSettings, seed: int) -> Algorithm:
+    """A learner of the whole task."""
+    return SEED(whole_problem(task), settings, seed)
 
 
 def whole_problem(task: Task) -> Problem:
-    """What a learner of the whole task is told; positions bounded by the table, as those of pieces are."""
+    """What a learner of the whole task is told; positions are bounded by the table, not by its scene."""
     low, high = state_bounds(task.state_fields)
     fields = position_fields(task.state_fields)
     skills = across_the_table(*task.skills)
     return Problem(task.name, low, high, skills, keypoints=task.keypoints, position_fields=fields)
 
 
-class Whole:
-    """One undivided learner, asked the same way."""
-
-    def __init__(self, task: Task, settings: SeedSettings, seed: int) -> None:
-        self.learner = SEED(whole_problem(task), settings, seed)
-
-    def at(self, state: Array) -> tuple[Algorithm, Array]:
-        """The learner, and what it is told."""
-        return self.learner, state
-
-
-def lessons(pupil: Pupil, task: Task, stage: Stage, *, seed: int, feedback: int) -> Iterator[int]:
-    """Algorithm 1 of the paper, judged by the task's own rule: so much feedback has been given after each."""
+def lessons(learner: Algorithm, task: Task, stage: Stage, *, seed: int, feedback: int) -> Iterator[Lesson]:
+    """Algorithm 1 of the paper, judged by the task's own rule, `feedback` labels long, each learned when it comes."""
     robot = SkillEpisodes(task, stage(task), first_subgoal=False)
     try:
         starts = np.random.default_rng(seed)
         robot.begin(int(starts.integers(FIRST_START)))
-        for label_id in range(1, feedback + 1):
-            learner, told = pupil.at(robot.state)
-            call = kept(task, learner.propose(told).call)
-            value = task.judge(robot.state, call)
-            learner.add([Label(label_id, told, call, value)])
-            while learner.owed_updates:
-                learner.update()
+        for number in range(1, feedback + 1):
+            state = robot.state
+            call = kept(task, learner.propose(state).call)
+            value = task.judge(state, call)
+            learn(learner, [Label(number, state, call, value)])
             if value == 1 and robot.execute(call).over:
                 robot.begin(int(starts.integers(FIRST_START)))
-            yield label_id
+            yield Lesson(number, state, call, value)
     finally:
         robot.close()
+
+
+def learn(learner: Algorithm, labels: Sequence[Label]) -> None:
+    """Take labels, and every gradient step that they owe."""
+    learner.add(labels)
+    while learner.owed_updates:
+        learner.update()
 
 
 def success(episodes: SkillEpisodes, policy: Policy, rollouts: int, *, least: float = 0.0) -> float:
@@ -78,14 +80,9 @@ def success(episodes: SkillEpisodes, policy: Policy, rollouts: int, *, least: fl
     return good / rollouts
 
 
-def deterministic(pupil: Pupil, task: Task) -> Policy:
-    """What the pupil would do, drawing nothing."""
-
-    def choose(state: Array) -> SkillCall:
-        learner, told = pupil.at(state)
-        return kept(task, learner.propose(told, deterministic=True).call)
-
-    return choose
+def deterministic(learner: Algorithm, task: Task) -> Policy:
+    """What the learner would do, drawing nothing."""
+    return lambda state: kept(task, learner.propose(state, deterministic=True).call)
 
 
 def kept(task: Task, call: SkillCall) -> SkillCall:
