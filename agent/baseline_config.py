@@ -198,12 +198,19 @@ def _preset(**settings: Any) -> Mapping[str, Any]:
 
 
 _TABLE_SIM = {"batch_size": 256, "discount": 0.99, "gradient_steps": 5, "train_frequency": 1}
+# Ours: trains in about a minute on one core, and starts at a temperature below what the one reward is worth. Chosen on
+# Reaching without physics, seeds 0 to 3
+_QUICK: Mapping[str, Any] = MappingProxyType(
+    {"learning_rate": 1e-3, "batch_size": 128, "hidden_size": 64, "gradient_steps": 1, "initial_temperature": 0.02}
+)
 _MAPLE_PRESETS: Mapping[str, Mapping[str, Any]] = MappingProxyType(
     {
         "paper_sim": _preset(learning_rate=3e-3, **_TABLE_SIM),
         "paper_real": _preset(
             learning_rate=3e-3, batch_size=1024, discount=0.4, gradient_steps=3, train_frequency=2, warm_up=1024
         ),
+        # at 0.99 a wasted call costs next to nothing, and what was learned was lost again after 1,200 calls (measured)
+        "quick": _preset(**{**_QUICK, "learning_rate": 3e-3}, discount=0.9, target_rate=0.02),
     }
 )
 
@@ -218,8 +225,8 @@ class SacFactory:
     presets: Mapping[str, Mapping[str, Any]] = MappingProxyType(
         {
             "paper_sim": _preset(learning_rate=3e-5, **_TABLE_SIM),
-            # Haarnoja et al., 2018, "Soft Actor-Critic Algorithms and Applications", table 1: for training an oracle
-            "original": _preset(learning_rate=3e-4, gradient_steps=1, target_rate=5e-3),
+            # a start long enough to come across the reward a few times by chance: without it one seed of two never did
+            "quick": _preset(target_rate=1e-2, warm_up=2000, **_QUICK),
         }
     )
 
@@ -249,6 +256,8 @@ class TamerFactory:
             "paper_real": _preset(
                 learning_rate=3e-4, batch_size=1024, discount=0.99, gradient_steps=30, train_frequency=25, warm_up=1024
             ),
+            # at the paper's .999 about 3 % of the first labels are good (measured), at .99 ten times as many
+            "quick": _preset(strictness=0.99, final_strictness=0.999, **_QUICK),
         }
     )
 

@@ -117,7 +117,7 @@ class Networks(nn.Module):
 
     def predict(self, states: Tensor, skills: Tensor, parameters: Tensor, keypoints: Tensor | None = None) -> Tensor:
         """H_theta(s, a, x) of each critic: (B, n), (B,) indices, (B, P) in [-1, 1], padded with 0 -> (E, B)."""
-        predicted: Tensor = self.critics(self._inputs(states, skills, parameters, keypoints))
+        predicted: Tensor = self.critics(self.critic_inputs(states, skills, parameters, keypoints))
         return predicted.squeeze(-1)
 
     def predict_every_skill(self, states: Tensor, local: Tensor, keypoints: Tensor | None = None) -> Tensor:
@@ -128,7 +128,7 @@ class Networks(nn.Module):
         count, B = local.shape[0], states.shape[0]
         parameters = self.decode(local, keypoints)
         predicted: Tensor = self.critics(
-            self._inputs(
+            self.critic_inputs(
                 states.expand(count, B, -1).reshape(count * B, -1),
                 self.option_skill.repeat_interleave(B),
                 parameters.reshape(count * B, -1),
@@ -144,7 +144,8 @@ class Networks(nn.Module):
             return local
         return self.grounding.decode(local, keypoints) * self.mask
 
-    def _inputs(self, states: Tensor, skills: Tensor, parameters: Tensor, keypoints: Tensor | None) -> Tensor:
+    def critic_inputs(self, states: Tensor, skills: Tensor, parameters: Tensor, keypoints: Tensor | None) -> Tensor:
+        """What the critics read of calls: as `predict` takes them -> (B, n + K + P + features)."""
         parts = [states, self.one_hot[skills], parameters]
         if self.grounding is not None and self.grounding.features and keypoints is not None:
             parts.append(self.grounding.read(skills, parameters, keypoints))

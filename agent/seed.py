@@ -15,16 +15,18 @@ from typing import Any
 import numpy as np
 import torch
 
-from agent import checkpoint, losses
-from agent.algorithm import AgentError, CheckpointError, Label, Problem, Suggestion
+from agent import checkpoint
+from agent.algorithm import CheckpointError, Label, Problem, Suggestion
+from agent.arena import ADAM_STATE
 from agent.candidates import Chooser, Search
 from agent.config import SeedSettings
 from agent.encoding import Encoder
 from agent.grounding import grounding
 from agent.networks import Layout, Networks
 from agent.proposing import Choice, choose
-from agent.replay import Replay
+from agent.replay import Batch, Replay
 from agent.symmetry import Symmetries
+from agent.training import Objective, Trainer
 from robot_adapters.base import Array
 
 
@@ -59,10 +61,12 @@ class Seed:
             generator=_generator(initial),
             grounding=self._grounding,
         )
-        # every loss reaches its own weights only, so one optimiser and one backward pass serve them all
-        self._optimiser = torch.optim.Adam(self._networks.parameters(), lr=settings.learning_rate, fused=True)
-        self._skill_entropy_target = settings.skill_entropy * math.log(self._grounding.options)
-        self._parameter_entropy_target = settings.parameter_entropy * self._networks.mask.sum(dim=-1)
+        objective = Objective(
+            settings.learning_rate,
+            skill_entropy=settings.skill_entropy * math.log(self._grounding.options),
+            parameter_entropy=settings.parameter_entropy * self._networks.mask.sum(dim=-1),
+        )
+        self._trainer, self._place = Trainer([self._networks], objective), 0
         self._replay = Replay(layout.state_size, layout.width, self._encoder.keypoint_shape)
         self._chooser: Chooser | None = None
         if settings.candidates:
@@ -148,69 +152,44 @@ class Seed:
         Raises:
             AgentError: the losses are no longer finite. The networks are as before this step.
         """
-        if not len(self._replay):
-            self._owed = self._spare = 0  # the labels that owed them were undone
+        if not self.ready():
             return None
-        metrics = self._step()
+        if len(self._trainer.arena.learners) > 1:  # trained together with others until now
+            self.settle(Trainer.joined([self.seat]), 0)
+        (metrics,) = self._trainer.step([self.draw()])
+        self.stepped()
+        return metrics
+
+    def ready(self) -> bool:
+        """Whether there is something to learn from. If not, nothing is owed any more: its labels were undone."""
+        if not len(self._replay):
+            self._owed = self._spare = 0
+        return len(self._replay) > 0
+
+    def draw(self) -> tuple[Batch, torch.Tensor]:
+        """What the next gradient step learns from: labels, and noise (O, B, P) for the parameters it imagines."""
+        batch = self._replay.sample(self._settings.batch_size, self._drawing)
+        if self._symmetries is not None:
+            batch = self._symmetries.applied(batch, self._drawing)
+        options, _, width = self._networks.mask.shape
+        return batch, torch.randn((options, len(batch.skills), width), generator=self._training)
+
+    def stepped(self) -> None:
+        """Count a gradient step: an owed one, or else a spare one."""
         self.policy_version += 1
         if self._owed:
             self._owed -= 1
         elif self._spare:
             self._spare -= 1
-        return metrics
 
-    def _step(self) -> Mapping[str, float]:
-        networks = self._networks
-        batch = self._replay.sample(self._settings.batch_size, self._drawing)
-        if self._symmetries is not None:
-            batch = self._symmetries.applied(batch, self._drawing)
-        states, skills, parameters, targets, keypoints = map(
-            torch.from_numpy, (batch.states, batch.skills, batch.parameters, batch.targets, batch.keypoints)
-        )
+    @property
+    def seat(self) -> tuple[Trainer, int]:
+        """What trains the networks, and their place there."""
+        return self._trainer, self._place
 
-        # eq. 1
-        critic_loss = losses.critic_loss(networks.predict(states, skills, parameters, keypoints), targets)
-
-        # one x_a ~ pi_psi(.|s, a) for every skill serves eq. 2 and eq. 3
-        log_pi = networks.skill_log_probabilities(states)
-        mean, log_std = networks.parameter_distributions(states)
-        noise = torch.randn(mean.shape, generator=self._training)
-        imagined, log_pi_x = losses.sample_parameters(mean, log_std, networks.mask, noise)
-        predicted = networks.predict_every_skill(states, imagined, keypoints)
-        skill_temperature = networks.log_skill_temperature.exp()
-        parameter_temperature = networks.log_parameter_temperature.exp()
-        skill_loss = losses.skill_actor_loss(log_pi, predicted, skill_temperature)
-        parameter_loss = losses.parameter_actor_loss(log_pi, log_pi_x, predicted, parameter_temperature)
-
-        temperature_loss = losses.skill_temperature_loss(
-            networks.log_skill_temperature, log_pi, self._skill_entropy_target
-        ) + losses.parameter_temperature_loss(
-            networks.log_parameter_temperature, log_pi, log_pi_x, self._parameter_entropy_target
-        )
-
-        total = critic_loss + skill_loss + parameter_loss + temperature_loss
-        if not torch.isfinite(total):
-            raise AgentError(
-                f"training diverged at gradient step {self.policy_version}",
-                remedy="load the last checkpoint, or start anew with a lower learning_rate",
-            )
-        self._optimiser.zero_grad()
-        total.backward()  # type: ignore[no-untyped-call]
-        self._optimiser.step()
-
-        with torch.no_grad():
-            values = torch.stack(
-                [
-                    critic_loss / self._settings.critics,
-                    skill_loss,
-                    parameter_loss,
-                    skill_temperature,
-                    parameter_temperature,
-                    losses.skill_entropy(log_pi).mean(),
-                    -(log_pi.exp().T * log_pi_x).sum(dim=0).mean(),
-                ]
-            )
-        return dict(zip(METRICS, values.tolist(), strict=True))
+    def settle(self, trainer: Trainer, place: int) -> None:
+        """Be trained by another trainer, which has taken the networks in (`Trainer.joined`)."""
+        self._trainer, self._place = trainer, place
 
     def save(self, path: Path) -> None:
         """Write networks, optimiser, temperatures, random states and counters atomically. The replay isn't written."""
@@ -220,7 +199,8 @@ class Seed:
         }
         for name, tensor in self._networks.named_parameters():
             arrays[f"network.{name}"] = tensor.detach()
-            for key, value in self._optimiser.state.get(tensor, {}).items():
+        for name, moments in self._trainer.arena.moments(self._place).items():
+            for key, value in moments.items():
                 arrays[f"adam.{key}.{name}"] = value
         state = {
             "drawing": self._drawing.bit_generator.state,
@@ -269,12 +249,13 @@ class Seed:
                 remedy="use an older checkpoint, or rebuild the learner from the labels",
             )
 
+        self.settle(Trainer([self._networks], self._trainer.objective), 0)
         with torch.no_grad():
-            for name, value in parameters.items():
-                value.copy_(weights[name])
-        self._optimiser.state.clear()
-        for name, state in moments.items():
-            self._optimiser.state[parameters[name]] = state
+            for name, parameter in parameters.items():
+                parameter.copy_(weights[name])
+        for name, kept in self._trainer.arena.moments(0).items():
+            for key, value in moments.get(name, {}).items():
+                kept[key].copy_(value)
         self._drawing, self._proposing, self._training = drawing, proposing, training
         self.policy_version, self.last_label_id = counters["policy_version"], counters["last_label_id"]
         self._labels_seen, self._owed, self._spare = counters["labels_seen"], counters["owed"], counters["spare"]
@@ -301,21 +282,6 @@ class Seed:
             "critics": settings.critics,
             **_grounded_fingerprint(settings, self._encoder),
         }
-
-
-METRICS = (
-    "critic_loss",
-    "skill_actor_loss",
-    "parameter_actor_loss",
-    "skill_temperature",
-    "parameter_temperature",
-    "skill_entropy",
-    "parameter_entropy",
-)
-"""What `Seed.update` reports, in order. Entropies in nats; a parameter's is over its range scaled to [-1, 1]."""
-
-ADAM_STATE = ("step", "exp_avg", "exp_avg_sq")
-"""What torch's Adam keeps of each parameter."""
 
 
 def _symmetries(problem: Problem, settings: SeedSettings, encoder: Encoder) -> Symmetries | None:

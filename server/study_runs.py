@@ -20,11 +20,9 @@ from agent.study.records import Folder, Progress
 from agent.study.results import Outcome, write_results
 from agent.study.versions import versions
 from server.settings import Settings
+from server.studies import STUDIES
 from server.study_screen import Screen
 from server.workers.study import builders
-
-STUDIES = "studies"
-"""Folder of the data directory in which the service looks for studies."""
 
 
 @dataclass(frozen=True)
@@ -88,10 +86,12 @@ def run_study(
     with _terminated(), folder.worked_on():
         if not place.resume:
             folder.begin(chosen, versions())
-        with Screen(console, folder, chosen, jobs) as screen:
-            ended = execute(chosen, folder.path, surroundings, jobs, screen.watch)
-        outcomes = write_results(folder, chosen)
-        figures = write_figures(folder, chosen)
+        try:
+            with Screen(console, folder, chosen, jobs) as screen:
+                ended = execute(chosen, folder.path, surroundings, jobs, screen.watch)
+        finally:  # an interrupted study, too, shows what it has
+            outcomes = write_results(folder, chosen)
+            figures = write_figures(folder, chosen)
     return Finished(chosen, folder.path, ended, outcomes, figures, time.monotonic() - began)
 
 

@@ -25,9 +25,9 @@ def _seed(name: str, title: str, preset: str) -> Contestant:
     return Contestant(name=name, title=title, kind="feedback", algorithm="seed", settings=SEED.presets[preset])
 
 
-def _baseline(name: str, title: str, kind: Kind, preset: str = "paper_sim", algorithm: str = "") -> Contestant:
-    factory = BASELINES[algorithm or name]
-    return Contestant(name=name, title=title, kind=kind, algorithm=algorithm or name, settings=factory.presets[preset])
+def _baseline(name: str, title: str, kind: Kind, **settings: float) -> Contestant:
+    chosen = {**BASELINES[name].presets["paper_sim"], **settings}
+    return Contestant(name=name, title=title, kind=kind, algorithm=name, settings=chosen)
 
 
 CONTESTANTS: Mapping[str, Contestant] = {
@@ -35,15 +35,23 @@ CONTESTANTS: Mapping[str, Contestant] = {
     for contestant in (
         _seed("seed", "SEED", "paper_sim"),
         _seed("seed-recommended", "SEED, recommended preset", "recommended"),
-        _baseline("tamer", "TAMER", "low_level_feedback"),
-        _baseline("maple-aff", "MAPLE-aff", "reward"),
-        _baseline("maple", "MAPLE", "reward"),
+        # without a warm-up, like SEED, with which they are compared by the number of feedbacks or skills
+        _baseline("tamer", "TAMER", "low_level_feedback", warm_up=0),
+        _baseline("maple-aff", "MAPLE-aff", "reward", warm_up=0),
+        _baseline("maple", "MAPLE", "reward", warm_up=0),
         _baseline("sac", "SAC", "low_level"),
     )
 }
 """By name: the paper's five by its hyper-parameters for simulation, and the preset that needs the fewest clicks."""
 
-ORACLE = _baseline("sac-oracle", "SAC, TAMER's oracle", "low_level", preset="original", algorithm="sac")
+ORACLE = Contestant(
+    name="sac-oracle",
+    title="SAC, TAMER's oracle",
+    kind="low_level",
+    algorithm="sac",
+    # Haarnoja et al., 2018, "Soft Actor-Critic Algorithms and Applications", table 1
+    settings={"learning_rate": 3e-4, "gradient_steps": 1, "target_rate": 5e-3},
+)
 """Who judges TAMER's actions. The paper says only that it is a fully trained SAC agent: so by SAC's own settings."""
 
 

@@ -189,10 +189,10 @@ def planned(
     protocol: Protocol,
     oracle: Contestant,
 ) -> Plan:
-    """The runs of a study, cheap ones of a scenario first. budgets: scenario -> budget; the paper's where it is silent.
+    """The runs of a study, seed by seed: what is interrupted has something of everything.
 
-    oracle: the learner that judges low-level actions; it is trained first, on the same task with the same budget, from
-    the first seed.
+    budgets: scenario -> budget; the paper's where it is silent. oracle: the learner that judges low-level actions; it
+    is trained first, from the first seed, on the same task with the same budget.
 
     Raises:
         StudyError: nothing is left to run, or a budget is below 1.
@@ -210,7 +210,8 @@ def planned(
             runs += [_run(contestant, scenario, seed, budget, needs) for seed in seeds]
     if not runs:
         raise StudyError("the study has nothing to run", remedy="name at least one algorithm, task and seed")
-    return Plan(name=name, adapter=adapter, seeds=tuple(seeds), protocol=protocol, runs=tuple(runs))
+    ordered = sorted(runs, key=lambda run: (run.seed, run.shown))  # stable; an oracle before those whom it judges
+    return Plan(name=name, adapter=adapter, seeds=tuple(seeds), protocol=protocol, runs=tuple(ordered))
 
 
 def _run(contestant: Contestant, scenario: Scenario, seed: int, budget: int, oracle: str | None = None) -> Run:

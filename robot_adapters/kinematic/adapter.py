@@ -37,6 +37,8 @@ from robot_adapters.tasks.episode import Episode
 CONTROL_HZ = 20.0
 # m between two set-points: robosuite's Panda moves at 0.6 m/s under the same skills, 20 of them a second
 STRIDE = 0.03
+# m likewise while pushing, at 0.08 m/s
+PUSH_STRIDE = 0.004
 # s between two looks at `should_stop` while a set-point lasts
 PATIENCE = 0.01
 
@@ -53,8 +55,9 @@ class Segment:
 class KinematicAdapter:
     """A table that exists only as positions (`Adapter`).
 
-    `low_level_steps` is what a real arm would have needed: one set-point for every 3 cm, 5 to close the fingers, 3 to
-    open them. Where skills take effect at once, `should_stop` and `on_step` are called once per segment instead.
+    `low_level_steps` is what a real arm would have needed: one set-point for every 3 cm (4 mm of a push), 5 to close
+    the fingers, 3 to open them. Where skills take effect at once, `should_stop` and `on_step` are called once per
+    segment instead.
     """
 
     def __init__(self, task: Task, settings: KinematicSettings) -> None:
@@ -142,7 +145,8 @@ class KinematicAdapter:
         world, seconds = self._world, self._settings.step_seconds
         moves = segment.act in {"move", "push"}
         if moves:
-            count = max(1, math.ceil(math.dist(world.gripper, segment.target) / STRIDE))
+            stride = PUSH_STRIDE if segment.act == "push" else STRIDE
+            count = max(1, math.ceil(math.dist(world.gripper, segment.target) / stride))
         else:
             count = OPENING_DWELL if segment.act == "open" else CLOSING_DWELL
         start = world.gripper
@@ -153,7 +157,7 @@ class KinematicAdapter:
                 part = i / count
                 at = [a + (b - a) * part for a, b in zip(start, segment.target, strict=True)]
                 if segment.act == "push":
-                    if world.push(world.gripper, at) > CONTACT:
+                    if world.push(at) > CONTACT:
                         return EndReason.STALLED, i
                 elif world.move(at) > (CONTACT if segment.contact else STRIDE):
                     return EndReason.STALLED, i

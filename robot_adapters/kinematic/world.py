@@ -114,29 +114,12 @@ class World:
         for rider in load:
             self.at[rider][2] += self.at[name][2] - z
 
-    def push(self, start: Position, end: Position) -> float:
-        """Move the closed fingers, or what they hold, from `start` to `end` (along x or y), pushing what is in the way.
+    def push(self, end: Position) -> float:
+        """Move the closed fingers, or what they hold, level to `end` (along x or y), pushing what is in the way.
 
         Returns how far before `end` something that can't give way stopped it, m.
         """
-        self.move(start)
-        return self._sweep(start, end)
-
-    def drive(self, target: Position) -> None:
-        """Go to `target` without planning: sideways, pushing if the fingers are closed, then up, or down to contact."""
-        if self.closed:
-            for axis in (0, 1):
-                end = list(self.gripper)
-                end[axis] = target[axis]
-                self._sweep(self.gripper, end)
-        here = self.gripper
-        x, y = here[:2] if self.closed else target[:2]
-        # what glides over a lip isn't lifted by it
-        lowest = min(self._lowest(x, y), here[2])
-        self._carry([x, y, max(target[2], lowest)])
-
-    def _sweep(self, start: Position, end: Position) -> float:
-        """See `push`; the gripper is at `start`."""
+        start = self.gripper
         axis = 0 if abs(end[0] - start[0]) >= abs(end[1] - start[1]) else 1
         sign = 1.0 if end[axis] >= start[axis] else -1.0
         if self.held is None:
@@ -169,6 +152,19 @@ class World:
         # level, whatever is below: a tool glides over the lip of what it sweeps into
         self._carry([stop[0], stop[1], self.gripper[2]])
         return blocked
+
+    def drive(self, target: Position) -> None:
+        """Go to `target` without planning: sideways, pushing if the fingers are closed, then up, or down to contact."""
+        if self.closed:
+            for axis in (0, 1):
+                end = list(self.gripper)
+                end[axis] = target[axis]
+                self.push(end)
+        here = self.gripper
+        x, y = here[:2] if self.closed else target[:2]
+        # what glides over a lip isn't lifted by it
+        lowest = min(self._lowest(x, y), here[2])
+        self._carry([x, y, max(target[2], lowest)])
 
     def opening(self) -> float:
         """Distance between the fingers, m."""

@@ -18,6 +18,7 @@ import llvmlite.binding
 import mujoco
 import numpy as np
 from numba import njit, types
+from numpy.typing import NDArray
 
 from robot_adapters.base import Array, Unavailable
 
@@ -82,6 +83,23 @@ class Controller(NamedTuple):
     """(6,) gains on the velocities."""
     rest: Array
     """(n,) rad, the posture to prefer."""
+
+
+class Watch(NamedTuple):
+    """Forces that are looked at after every physics step: a blow may be over before the control period is."""
+
+    sensors: Array
+    """All sensors' values (`mjData.sensordata`)."""
+    contact: Array
+    """(bodies, 6) torque and force of all contacts with a body (`mjData.cfrc_ext`)."""
+    wrist: int
+    """Where the force at the wrist starts in `sensors`."""
+    bodies: NDArray[np.int64]
+    """Those that should touch nothing."""
+    wrist_force: float
+    """N at the wrist beyond which the period is interrupted."""
+    contact_force: float
+    """N on one of `bodies`, likewise."""
 
 
 class Scratch(NamedTuple):
@@ -149,18 +167,29 @@ def control_step(  # noqa: PLR0917  numba unpacks arguments one by one in 2 us a
     stiffness: Array,
     damping: Array,
     rest: Array,
-) -> None:
+    # Watch
+    sensors: Array,
+    contact: Array,
+    wrist: int,
+    bodies: NDArray[np.int64],
+    wrist_force: float,
+    contact_force: float,
+) -> tuple[int, bool]:
     """Advance the physics by `substeps` towards the set-point in `command`, without holding the GIL.
 
     `command` is (6 + g,): the grip site in m and its rotation vector in rad, world frame, then the gripper's actuators.
-    What follows are the fields of `Memory` and of `Controller`.
+    What follows are the fields of `Memory`, of `Controller`, and of `Watch`.
+
+    Returns how many were taken, and whether a force was beyond its limit after the last: then there may be fewer, and
+    a call with the rest goes on as if nothing had been.
     """
     memory = Memory(model, data, qpos, qvel, ctrl, bias, inertia, inertia_row, parent, hand, facing)
     controller = Controller(site, positions, velocities, actuators, gripper, low, high, stiffness, damping, rest)
     room = _scratch(qvel.shape[0])
     desired = _rotation(command[3:6])
     J, J_linear, J_angular = room.J, room.linear, room.angular
-    for _ in range(substeps):
+    watch = Watch(sensors, contact, wrist, bodies, wrist_force, contact_force)
+    for taken in range(1, substeps + 1):
         _step1(model, data)
         _site_jacobian(model, data, J_linear.ctypes.data, J_angular.ctypes.data, site)
         for j in range(ARM_JOINTS):
@@ -174,6 +203,22 @@ def control_step(  # noqa: PLR0917  numba unpacks arguments one by one in 2 us a
         for g in range(gripper.shape[0]):
             ctrl[gripper[g]] = command[6 + g]
         _step2(model, data)
+        if _alarming(watch):
+            return taken, True
+    return substeps, False
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _alarming(watch: Watch) -> bool:
+    """Whether a force is beyond its limit now."""
+    sensors, contact, bodies, at = watch.sensors, watch.contact, watch.bodies, watch.wrist
+    if sensors[at] ** 2 + sensors[at + 1] ** 2 + sensors[at + 2] ** 2 > watch.wrist_force**2:
+        return True
+    for i in range(bodies.shape[0]):
+        body = bodies[i]
+        if contact[body, 3] ** 2 + contact[body, 4] ** 2 + contact[body, 5] ** 2 > watch.contact_force**2:
+            return True
+    return False
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")

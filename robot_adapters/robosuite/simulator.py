@@ -47,9 +47,11 @@ class Simulator:
             build: the task's scene (`scenes.find`); None where blocks and areas are all there is.
         """
         self._env = Tabletop(objects, build)
-        self._stepping: Stepping = NativeStepping(self._env) if stepping == "native" else ReferenceStepping(self._env)
         self.model: mujoco.MjModel = self._env.sim.model._model
         self.data: mujoco.MjData = self._env.sim.data._data
+        self._damage = Damage(self.model, self.data)
+        backend = NativeStepping if stepping == "native" else ReferenceStepping
+        self._stepping: Stepping = backend(self._env, self._damage)
         self._closed = False
         self.yaw = 0.0
         """The angle last commanded, rad: the one to keep, where the measured one would drift from skill to skill."""
@@ -63,7 +65,6 @@ class Simulator:
             spec.name: int(self.model.joint(spec.name).qposadr[0]) for spec in objects if spec.shape == "slider"
         }
         self._grasping = [[self.model.geom(name).id for name in finger] for finger in GRASPING]
-        self._damage = Damage(self.model, self.data)
         self._overload: str | None = None
         self.damage: str | None = None
         """The newest overload, until it is set to None."""
@@ -121,7 +122,7 @@ class Simulator:
         self.damage = self._overload or self.damage
 
     def overload(self) -> str | None:
-        """What was beyond its limit at the end of the last set-point, in words."""
+        """What was beyond its limit during the last set-point, in words."""
         return self._overload
 
     # what a task may look at

@@ -11,6 +11,7 @@ import numpy as np
 
 from robot_adapters.base import Array, Unavailable
 from robot_adapters.robosuite.control_step import Controller, Memory, control_step, load_symbols
+from robot_adapters.robosuite.damage import Damage
 
 log = logging.getLogger(__name__)
 
@@ -43,10 +44,11 @@ class Stepping(Protocol):
 
 
 class ReferenceStepping:
-    """robosuite's `env.step`: many times as slow, and what the other is held to."""
+    """robosuite's `env.step`: many times as slow, and what the other is held to. Forces are seen once a set-point."""
 
-    def __init__(self, env: Any) -> None:
+    def __init__(self, env: Any, damage: Damage) -> None:
         self._env = env
+        self._damage = damage
 
     def bind(self) -> None:
         """Let the controllers look anew: they remember the arm as it was before the scene placed the fingers."""
@@ -58,13 +60,21 @@ class ReferenceStepping:
         fingers = np.array([-1.0, 1.0]) * np.sign(action[6])
         self._env.robots[0].gripper[ARM].current_action = fingers
         self._env.step(action)
+        self._damage.note()
 
 
 class NativeStepping:
     """The same physics and equations without Python between two physics steps, and without the GIL."""
 
-    def __init__(self, env: Any) -> None:
+    def __init__(self, env: Any, damage: Damage) -> None:
+        """Compile, or load what was compiled before.
+
+        Args:
+            env: robosuite's environment.
+            damage: is asked to note what it sees after every physics step with a force beyond its limit.
+        """
         self._env = env
+        self._damage, self._watch = damage, damage.watch()
         self._model, self._data = env.sim.model._model, env.sim.data._data
         period = 1.0 / env.control_freq
         timestep = self._model.opt.timestep
@@ -129,10 +139,16 @@ class NativeStepping:
         """See `Stepping.step`."""
         self._command[:6] = action[:6]
         self._command[6:] = self._closed if action[6] > 0 else self._open
-        self._run(self._substeps)
+        left = self._substeps
+        while left:
+            taken, alarmed = self._run(left)
+            left -= taken
+            if alarmed:
+                self._damage.note()
 
-    def _run(self, substeps: int) -> None:
-        control_step(substeps, self._command, *self._memory, *self._controller)
+    def _run(self, substeps: int) -> tuple[int, bool]:
+        result: tuple[int, bool] = control_step(substeps, self._command, *self._memory, *self._controller, *self._watch)
+        return result
 
     def _fingers(self, gripper: Any, action: Array) -> Array:
         """(g,) what robosuite's gripper controller makes of an action (g,) in [-1, 1]."""

@@ -59,7 +59,12 @@ class Reaching:
         StateField("gripper_closed", 1, "", "1 while the fingers are commanded closed, else 0", (0.0,), (1.0,)),
     )
     skills = (
-        SkillSpec("reach", table.position("where the gripper goes"), "Move the gripper to a position."),
+        SkillSpec(
+            "reach",
+            # no farther: outside, a joint of the Panda runs into its limit
+            table.position("where the gripper goes", x=table.FREE_X, y=table.FREE_Y),
+            "Move the gripper to a position.",
+        ),
         SkillSpec("release", (), "Open the gripper."),
     )
     subgoals = (Subgoal("reach the area", instruction),)

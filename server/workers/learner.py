@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from agent.affordance import near
 from agent.algorithm import AgentError, Algorithm, AlgorithmFactory, Label, Problem
 from robot_adapters import registry
 from robot_adapters.base import InvalidCall, SkillCall, check_call
@@ -25,9 +26,6 @@ from robot_adapters.tasks.base import Task, entry_names, position_fields, state_
 from server.workers.channel import Pipes, Refusal, answer, open_pipes
 
 log = logging.getLogger(__name__)
-
-NEAR = 0.05
-"""m in the xy plane: what counts as near a task-relevant key point (the paper gives no number; two block widths)."""
 
 
 class Diverged(Refusal):
@@ -153,20 +151,6 @@ class Learner:
             "owed_updates": self.algorithm.owed_updates,
             "metrics": self._metrics,
         }
-
-
-def near(task: Task, state: np.ndarray[Any, np.dtype[np.float64]], call: SkillCall) -> bool:
-    """The paper's affordance: whether the call's position is near a place where its skill acts on the task's objects.
-
-    True for a skill without a position, and where the task names no such place: nothing to be far from.
-    """
-    spec = next(s for s in task.skills if s.name == call.skill)
-    named = call.named(spec)
-    keypoints = task.keypoints(state, call.skill)
-    if "x" not in named or len(keypoints) == 0:
-        return True
-    distances = np.linalg.norm(keypoints[:, :2] - np.array([named["x"], named["y"]]), axis=1)
-    return bool(distances.min() <= NEAR)
 
 
 def serve(pipes: Pipes) -> None:

@@ -64,6 +64,14 @@ def test_the_defaults_are_the_simulation_column(name: str) -> None:
     assert baseline.settings() == baseline.settings(**baseline.presets["paper_sim"])
 
 
+@pytest.mark.parametrize("name", list(BASELINES))
+def test_every_preset_fits(name: str) -> None:
+    presets = BASELINES[name].presets
+    assert {"paper_sim", "quick"} <= set(presets)
+    for chosen in presets.values():
+        BASELINES[name].settings(**chosen)
+
+
 def test_only_maple_aff_penalises() -> None:
     penalties = [b.settings().model_dump().get("affordance_penalty") for b in BASELINES.values()]
     assert penalties == [None, None, 0.0, 0.1]

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 import torch
 
-from agent.affordance import NEAR, near
 from agent.algorithm import AgentError, CheckpointError, Problem
 from agent.baseline_config import BASELINES, MapleFactory
 from agent.maple import METRICS, Maple
@@ -116,25 +115,6 @@ def test_exploring_keeps_every_skill_in_play_for_a_while() -> None:
 
 
 # --- affordance
-
-
-def test_near_is_within_five_centimetres_of_the_skills_own_key_points() -> None:
-    stacking = of_task("stacking")
-    state = np.array([0.5, 0.0, -0.09, 0.6, 0.1, -0.087])
-
-    def at(skill: str, x: float, y: float) -> bool:
-        return near(stacking, state, SkillCall(skill, (x, y, 0.0)))
-
-    assert at("pick", 0.5, 0.9 * NEAR)
-    assert not at("pick", 0.5, 1.1 * NEAR)
-    assert not at("pick", 0.6, 0.1), "B isn't to be picked"
-    assert at("place", 0.6, 0.1)
-
-
-def test_where_there_is_nothing_to_be_far_from_everything_is_near() -> None:
-    assert near(of_task("reaching"), np.zeros(4), SkillCall("reach", (0.3, 0.2, 0.0)))
-    assert near(of_task("reaching"), np.zeros(4), SkillCall("release"))
-    assert near(problem(), np.zeros(3), SkillCall("pick", (0.3, 0.0, 0.0)))
 
 
 @pytest.mark.parametrize(

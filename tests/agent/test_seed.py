@@ -13,7 +13,8 @@ import torch
 
 from agent.algorithm import AgentError, Algorithm, CheckpointError, Label, Problem, Suggestion
 from agent.config import SEED, SeedSettings
-from agent.seed import METRICS, Seed
+from agent.gradients import METRICS
+from agent.seed import Seed
 from robot_adapters.base import ParameterSpec, SkillCall, SkillSpec, check_call
 from tests.agent.problems import PICK, PUSH, RELEASE, labels, problem
 

@@ -11,7 +11,9 @@ from __future__ import annotations
 import os
 import statistics
 import time
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
 
 import torch
 
@@ -29,7 +31,10 @@ FIRST_SEED = 10
 
 @dataclass(frozen=True)
 class Row:
-    """One task under one preset. bar: mean feedback that it may need; every: feedback between two evaluations."""
+    """One task under one preset. bar: mean feedback that it may need; every: feedback between two evaluations.
+
+    settings: those that differ from the preset.
+    """
 
     preset: str
     task: str
@@ -38,6 +43,7 @@ class Row:
     seeds: int
     every: int
     rollouts: int
+    settings: Mapping[str, Any] = field(default_factory=dict)
 
 
 BARS = {"stacking": 25, "reaching": 60, "sweeping": 60, "collecting_toy": 80, "cooking_hotdog": 120}
@@ -71,7 +77,7 @@ def run() -> Result:
 def _told(row: Row) -> tuple[float, str]:
     """Mean feedback of a row's seeds, and the line that tells it."""
     start = time.perf_counter()
-    needed = [_feedback_needed(row, seed) for seed in range(FIRST_SEED, FIRST_SEED + row.seeds)]
+    needed = [feedback_needed(row, seed) for seed in range(FIRST_SEED, FIRST_SEED + row.seeds)]
     counted = [row.budget if n is None else n for n in needed]
     mean = statistics.fmean(counted)
     sem = statistics.stdev(counted) / len(counted) ** 0.5 if len(counted) > 1 else 0.0
@@ -82,13 +88,13 @@ def _told(row: Row) -> tuple[float, str]:
     return mean, f"{row.preset} {row.task}: {least}{mean:.0f} ± {sem:.0f}{bar} ({each}; {seconds:.0f} s)"
 
 
-def _feedback_needed(row: Row, seed: int) -> int | None:
+def feedback_needed(row: Row, seed: int) -> int | None:
     """Labels until 90 % of the rollouts succeed; None where the budget ran out before."""
     task = registry.task(row.task)
     low, high = state_bounds(task.state_fields)
     fields = position_fields(task.state_fields)
     problem = Problem(task.name, low, high, task.skills, keypoints=task.keypoints, position_fields=fields)
-    learner = SEED(problem, SeedSettings(**SEED.presets[row.preset]), seed)
+    learner = SEED(problem, SeedSettings(**{**SEED.presets[row.preset], **row.settings}), seed)
     robot, judged_on = _kinematic(row.task), _kinematic(row.task)
     try:
         state, executed = robot.reset(seed).state, 0

@@ -140,11 +140,22 @@ def test_a_push_takes_along_what_is_in_its_way() -> None:
     layout = {"block_a": np.array([0.5, 0.0, low_a]), "block_b": np.array([0.6, 0.01, low_b])}
     world.reset({**layout, "gripper": np.array([0.4, 0.0, low_a])})
     world.closed = True
-    world.push([0.4, 0.0, low_a], [0.53, 0.0, low_a])
+    world.push([0.53, 0.0, low_a])
     assert world.at["block_a"] == pytest.approx([0.53 + 0.01 + HALF_A, 0.0, low_a])
     assert world.at["block_b"][0] >= world.at["block_a"][0] + HALF_A + HALF_B - 1e-9
-    world.push([0.4, 0.2, low_a], [0.7, 0.2, low_a])
+    world.move([0.4, 0.2, low_a])
+    world.push([0.7, 0.2, low_a])
     assert world.at["block_a"][0] == pytest.approx(0.56)
+
+
+def test_a_push_takes_as_many_set_points_as_a_slow_arm_would_need() -> None:
+    adapter = build("sweeping", draw=False)
+    sweeping = registry.task("sweeping")
+    state = adapter.reset(1).state
+    run(adapter, "pick", *sweeping.true_call(state).parameters)
+    push = sweeping.true_call(adapter.observe().state)
+    # 0.08 m/s at 20 Hz, and the way there and up
+    assert run(adapter, "push", *push.parameters).low_level_steps >= push.parameters[4] / 0.004
 
 
 def test_a_block_pushed_over_the_edge_falls() -> None:
@@ -152,7 +163,7 @@ def test_a_block_pushed_over_the_edge_falls() -> None:
     low_a = table.HEIGHT + HALF_A
     layout = {"block_a": np.array([0.9, 0.0, low_a]), "block_b": np.array([0.4, 0.2, table.HEIGHT + HALF_B])}
     world.reset({**layout, "gripper": np.array([0.8, 0.0, low_a])})
-    world.push([0.8, 0.0, low_a], [0.95, 0.0, low_a])
+    world.push([0.95, 0.0, low_a])
     assert world.at["block_a"][2] < table.HEIGHT - 0.1
     assert Stacking().violations(world.scene())[0].kind == "manual_reset"
 

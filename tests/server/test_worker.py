@@ -13,13 +13,10 @@ from collections.abc import AsyncIterator
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
-from robot_adapters import registry
 from robot_adapters.base import SkillCall
 from server.worker import CommandFailed, Worker, WorkerDied, WorkerTimeout
-from server.workers.learner import near
 
 DEADLINE = 60.0
 PICK = SkillCall("pick", (0.6, 0.1, -0.05))
@@ -300,31 +297,6 @@ async def test_wrong_requests_are_told_with_a_remedy() -> None:
         await worker.call("nonsense", deadline=DEADLINE)
     assert (await worker.call("flush", deadline=DEADLINE))["owed_updates"] == 0
     await worker.close()
-
-
-def test_near_is_within_five_centimetres_of_where_the_skill_acts() -> None:
-    task = registry.task("stacking")
-    state = np.array([0.5, 0.0, -0.09, 0.7, 0.1, -0.087])
-    assert near(task, state, SkillCall("pick", (0.53, 0.03, 0.05)))
-    assert not near(task, state, SkillCall("pick", (0.6, 0.0, -0.09)))
-    # each skill has places of its own: a pick over the large block, or a place over the small one, is far from its own
-    assert not near(task, state, SkillCall("pick", (0.7, 0.1, -0.04)))
-    assert near(task, state, SkillCall("place", (0.7, 0.1, -0.04)))
-    assert not near(task, state, SkillCall("place", (0.5, 0.0, -0.04)))
-    # exactly so far is near, a millimetre more isn't; the height doesn't count
-    assert near(task, state, SkillCall("pick", (0.54, 0.03 - 1e-9, 0.2)))
-    assert not near(task, state, SkillCall("pick", (0.541, 0.03, -0.09)))
-    # near any one of several is near
-    hotdog = registry.task("cooking_hotdog")
-    start = hotdog.sample_layout(np.random.default_rng(1))
-    assert {"skillet", "sausage"} <= set(start)
-    seen = np.zeros(sum(f.size for f in hotdog.state_fields))
-    for at in hotdog.keypoints(seen, "place"):
-        assert near(hotdog, seen, SkillCall("place", tuple(float(v) for v in at)))
-    # no position, or nothing to be near to
-    reaching = registry.task("reaching")
-    assert near(reaching, np.array([0.5, 0.0, 0.0, 0.0]), SkillCall("release"))
-    assert near(reaching, np.array([0.5, 0.0, 0.0, 0.0]), SkillCall("reach", (0.8, 0.2, 0.0)))
 
 
 def test_the_server_loads_neither_torch_nor_a_simulator() -> None:

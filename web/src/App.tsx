@@ -2,6 +2,8 @@
 import { useEffect } from "react";
 import { Header } from "./components/Header";
 import { ExperimentsPage } from "./pages/ExperimentsPage";
+import { StudiesPage } from "./pages/StudiesPage";
+import { StudyPage } from "./pages/StudyPage";
 import { TrainerPage } from "./pages/TrainerPage";
 import { Link, usePath } from "./router";
 
@@ -12,6 +14,9 @@ export function App() {
     if (!trainer) document.title = "SEED";
   }, [trainer]);
   if (trainer) return <TrainerPage key={trainer[1]} id={Number(trainer[1])} />;
+  const study = /^\/studies\/([^/]+)\/?$/.exec(path);
+  if (study?.[1]) return <StudyPage key={study[1]} name={decodeURIComponent(study[1])} />;
+  if (path === "/studies") return <StudiesPage />;
   if (path === "/" || path === "/experiments") return <ExperimentsPage />;
   return (
     <>

@@ -677,6 +677,66 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/studies": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Studies
+         * @description Every study in the data directory, newest first, as far as it is now.
+         */
+        get: operations["list_studies"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/studies/{name}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Study
+         * @description One study with its runs and its curves so far, the paper's beside them.
+         */
+        get: operations["get_study"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/studies/{name}/files/{file}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Study File
+         * @description A figure (PNG or SVG) or table of a study; `files` of the study names them.
+         */
+        get: operations["get_study_file"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/health": {
         parameters: {
             query?: never;
@@ -2320,6 +2380,171 @@ export interface components {
              * Format: date-time
              */
             at: string;
+        };
+        /**
+         * Study
+         * @description A study with its runs and curves so far. files: what `files/{file}` has, once the study has come to its end.
+         */
+        Study: {
+            /** Name */
+            name: string;
+            /** Study */
+            study: string | null;
+            /** Adapter */
+            adapter: string | null;
+            /** Created At */
+            created_at: string | null;
+            /** Live */
+            live: boolean;
+            /** Done */
+            done: number;
+            /** Runs */
+            runs: number;
+            /** Finished */
+            finished: number;
+            /** Failed */
+            failed: number;
+            /** Problem */
+            problem: string | null;
+            /** Versions */
+            versions: {
+                [key: string]: string;
+            };
+            /** Scenarios */
+            scenarios: components["schemas"]["StudyScenario"][];
+            /** Run List */
+            run_list: components["schemas"]["StudyRun"][];
+            /** Files */
+            files: string[];
+        };
+        /**
+         * StudyCurve
+         * @description The mean of the seeds begun so far at common points; sem: its standard error, null from one seed.
+         */
+        StudyCurve: {
+            /** Algorithm */
+            algorithm: string;
+            /** Title */
+            title: string;
+            /** Seeds */
+            seeds: number;
+            /** X */
+            x: number[];
+            /** Mean */
+            mean: number[];
+            /** Sem */
+            sem: (number | null)[];
+        };
+        /**
+         * StudyPaperCurve
+         * @description What the paper's figure shows; trial: which of single runs, null where it is the mean of all.
+         */
+        StudyPaperCurve: {
+            /** Algorithm */
+            algorithm: string;
+            /** Title */
+            title: string;
+            /** Trial */
+            trial: number | null;
+            /** X */
+            x: number[];
+            /** Y */
+            y: number[];
+        };
+        /**
+         * StudyRun
+         * @description One contestant in one scenario from one seed. rate: units of the scenario's axis a second.
+         */
+        StudyRun: {
+            /** Id */
+            id: string;
+            /** Scenario */
+            scenario: string;
+            /** Algorithm */
+            algorithm: string;
+            /** Title */
+            title: string;
+            /** Seed */
+            seed: number;
+            /** Budget */
+            budget: number;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "waiting" | "running" | "interrupted" | "finished" | "failed";
+            /** Done */
+            done: number;
+            /** Decisions */
+            decisions: number;
+            /** Low Level Steps */
+            low_level_steps: number;
+            /** Successes */
+            successes: number;
+            /** Violations */
+            violations: number;
+            /** Evaluations */
+            evaluations: number;
+            /** Success Rate */
+            success_rate: number | null;
+            /** Rate */
+            rate: number | null;
+            /** Seconds */
+            seconds: number;
+            /** Error */
+            error: string | null;
+        };
+        /**
+         * StudyScenario
+         * @description A task as one figure looks at it: its caption, our curves and the paper's.
+         */
+        StudyScenario: {
+            /** Name */
+            name: string;
+            /** Title */
+            title: string;
+            /**
+             * Axis
+             * @enum {string}
+             */
+            axis: "low_level_steps" | "decisions";
+            /**
+             * Measure
+             * @enum {string}
+             */
+            measure: "success_rate" | "successes";
+            /** Caption */
+            caption: string;
+            /** Curves */
+            curves: components["schemas"]["StudyCurve"][];
+            /** Paper */
+            paper: components["schemas"]["StudyPaperCurve"][];
+        };
+        /**
+         * StudySummary
+         * @description A study in the list. live: a process works on it now. done: 0 to 1. problem: why it can't be read.
+         */
+        StudySummary: {
+            /** Name */
+            name: string;
+            /** Study */
+            study: string | null;
+            /** Adapter */
+            adapter: string | null;
+            /** Created At */
+            created_at: string | null;
+            /** Live */
+            live: boolean;
+            /** Done */
+            done: number;
+            /** Runs */
+            runs: number;
+            /** Finished */
+            finished: number;
+            /** Failed */
+            failed: number;
+            /** Problem */
+            problem: string | null;
         };
         /**
          * TaskInfo
@@ -5081,6 +5306,190 @@ export interface operations {
                 };
             };
             /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_studies: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StudySummary"][];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_study: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description name of the study's folder */
+                name: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Study"];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_study_file: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description name of the study's folder */
+                name: string;
+                file: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The file */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/octet-stream": unknown;
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Validation Error */
             422: {
                 headers: {
                     [name: string]: unknown;

@@ -14,6 +14,8 @@ import type {
   Mode,
   Problem,
   Proposal,
+  Study,
+  StudySummary,
   TaskInfo,
   TeacherInfo,
   Verb,
@@ -112,8 +114,8 @@ export const act = (id: number, verb: Verb) => request<Experiment>("POST", `/exp
 export const setMode = (id: number, mode: Mode) =>
   request<Experiment>("PATCH", `/experiments/${id}`, { mode });
 
-/** `{}` is the rule with its defaults, null turns it off. */
-export const setAutoApproval = (id: number, rule: Partial<AutoApproval> | null) =>
+/** Null turns it off. */
+export const setAutoApproval = (id: number, rule: AutoApproval | null) =>
   request<Experiment>("PATCH", `/experiments/${id}`, { auto_approval: rule });
 
 export const calibration = (id: number) => request<Calibration>("GET", `/experiments/${id}/calibration`);
@@ -142,3 +144,11 @@ export async function metrics(id: number): Promise<MetricPoint[]> {
   } while (cursor);
   return points;
 }
+
+export const studies = () => request<StudySummary[]>("GET", "/studies");
+
+export const study = (name: string) => request<Study>("GET", `/studies/${encodeURIComponent(name)}`);
+
+/** Where a figure or table of a study can be had. */
+export const studyFile = (name: string, file: string) =>
+  `${ROOT}/studies/${encodeURIComponent(name)}/files/${encodeURIComponent(file)}`;

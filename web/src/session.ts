@@ -6,7 +6,7 @@ import { newId } from "./ids";
 import { type Click, Outbox } from "./outbox";
 import { type Action, initial, reduce, type TrainerState } from "./state";
 import { type Connection, Stream } from "./stream";
-import type { Experiment, StreamEvent, Value, Verb } from "./wire";
+import type { AutoApproval, Experiment, StreamEvent, Value, Verb } from "./wire";
 
 const RESEND_MS = 3000;
 const STOP_RETRY_MS = 1000;
@@ -87,8 +87,8 @@ export class Session {
     await this.guard(http.setMode(this.id, mode));
   }
 
-  async setAutoApproval(on: boolean): Promise<void> {
-    await this.guard(http.setAutoApproval(this.id, on ? {} : null));
+  async setAutoApproval(rule: AutoApproval | null): Promise<void> {
+    await this.guard(http.setAutoApproval(this.id, rule));
   }
 
   async evaluate(rollouts: number): Promise<void> {

@@ -53,3 +53,8 @@ export type ClientMessage =
 export type Value = -1 | 0 | 1;
 
 export type Verb = "start" | "pause" | "resume" | "finish" | "halt" | "rearm";
+
+export type StudySummary = Schemas["StudySummary"];
+export type Study = Schemas["Study"];
+export type StudyRun = Schemas["StudyRun"];
+export type StudyScenario = Schemas["StudyScenario"];

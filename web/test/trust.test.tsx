@@ -153,7 +153,7 @@ describe("auto-approval", () => {
     await act(async () => byTestId("auto-approval-on").click());
     expect(set).not.toHaveBeenCalled();
     asked[0]?.act();
-    expect(set).toHaveBeenCalledWith(true);
+    expect(set).toHaveBeenCalledWith(RULE);
   });
 
   it("can't be had with one critic", () => {
@@ -169,20 +169,33 @@ describe("auto-approval", () => {
     expect(byTestId("auto-approval").textContent).toBe(
       "12 approved by the criticTrainers agreed with 9 of 10 checked (95 % interval 60 % to 98 %).",
     );
+    expect(document.body.textContent).toContain("predicted +0.90 or more, ±\u00a00.10 or less");
     await act(async () => byTestId("auto-approval-off").click());
-    expect(set).toHaveBeenCalledWith(false); // turning it off needs no question
+    expect(set).toHaveBeenCalledWith(null); // turning it off needs no question
     expect(agreementIn(record({ audited: 0, agreed: 0 }))).toBe("Not checked by a trainer yet.");
   });
 
   it("says why it has suspended itself, and offers to turn it on again", async () => {
     const suspended = experiment({
       ...ensemble,
-      auto_approval: RULE,
+      auto_approval: { ...RULE, audit_every: 3 },
       auto_approval_suspended: "trainers called 1 of 3 audited proposals good",
     });
-    await show(<AutoApprovalCard experiment={suspended} record={record()} onAsk={vi.fn()} onSet={vi.fn()} />);
+    const asked: Question[] = [];
+    const set = vi.fn();
+    await show(
+      <AutoApprovalCard
+        experiment={suspended}
+        record={record()}
+        onAsk={(question) => asked.push(question)}
+        onSet={set}
+      />,
+    );
     expect(byTestId("auto-approval-suspended").textContent).toContain("1 of 3");
     expect(byTestId("auto-approval-on").textContent).toBe("Turn on again");
+    await act(async () => byTestId("auto-approval-on").click());
+    asked[0]?.act();
+    expect(set).toHaveBeenCalledWith({ ...RULE, audit_every: 3 }); // the same rule, not the first one
   });
 
   it("is said while the robot moves by it", () => {

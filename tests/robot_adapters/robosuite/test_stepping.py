@@ -116,18 +116,20 @@ def test_stepping_is_a_setting_that_the_adapter_tells(stacking: RobosuiteAdapter
 
 def test_a_controller_that_it_does_not_know_is_refused(stacking: RobosuiteAdapter) -> None:
     # here and not above: MuJoCo binds to its OpenGL at import, which the adapter has chosen
+    from robot_adapters.robosuite.damage import Damage  # noqa: PLC0415
     from robot_adapters.robosuite.scene import Tabletop  # noqa: PLC0415
     from robot_adapters.robosuite.stepping import ARM, NativeStepping  # noqa: PLC0415
 
     env = Tabletop(())
-    native = NativeStepping(env)
+    damage = Damage(env.sim.model._model, env.sim.data._data)
+    native = NativeStepping(env, damage)
     env.robots[0].part_controllers[ARM].impedance_mode = "variable"
     with pytest.raises(Unavailable, match="impedance_mode='variable'") as refused:
         native.bind()
     assert refused.value.remedy == "set stepping to reference"
     env.sim.model._model.opt.timestep = 0.004
     with pytest.raises(ValueError, match=r"0\.05 s isn't a multiple of 0\.004 s"):
-        NativeStepping(env)
+        NativeStepping(env, damage)
     env.close()
 
 
@@ -142,3 +144,23 @@ def test_a_direction_without_mobility_gets_no_force(stacking: RobosuiteAdapter) 
         _factorise(matrix, factor, len(matrix))
         _solve(factor, solved, len(solved))
         assert solved == pytest.approx(np.linalg.pinv(matrix) @ force, rel=1e-9)
+
+
+def test_a_blow_that_is_over_before_the_control_period_is_noticed(stacking: RobosuiteAdapter) -> None:
+    stacking.reset(0)
+    simulator = stacking.simulator
+    model, data = simulator.model, simulator.data
+    hand, block = model.body("robot0_right_hand").id, model.body("block_b_main")
+    place, speed = int(model.jnt_qposadr[block.jntadr[0]]), int(model.jnt_dofadr[block.jntadr[0]])
+    # the block flies against the hand's side, and back
+    data.qpos[place : place + 3] = data.xpos[hand] + [0.15, 0.0, 0.08]
+    data.qvel[speed : speed + 3] = [-4.0, 0.0, 0.0]
+    here, yaw = simulator.pose()
+    simulator.step(here, yaw, gripper_closed=False)
+    assert np.linalg.norm(data.cfrc_ext[hand]) < 1.0
+    overload = simulator.overload()
+    assert overload is not None
+    assert overload.startswith("the hand or arm presses against something with ")
+    stacking.reset(0)
+    simulator.step(here, yaw, gripper_closed=False)
+    assert simulator.overload() is None

@@ -1,7 +1,8 @@
 // Letting the critic approve by itself, in simulation only: on or off, what it has approved, how trainers agreed.
 import * as http from "../http";
 import { useLatest } from "../useLatest";
-import type { AutoApprovalRecord, Experiment } from "../wire";
+import type { AutoApproval, AutoApprovalRecord, Experiment } from "../wire";
+import { signed } from "./Calibration";
 import type { Question } from "./Dialog";
 
 const percent = (share: number) => `${Math.round(100 * share)} %`;
@@ -24,19 +25,40 @@ export function obstacleTo(experiment: Experiment): string | null {
 export interface AutoApprovalProps {
   experiment: Experiment;
   onAsk: (question: Question) => void;
-  onSet: (on: boolean) => void;
+  /** A rule, or null to turn it off. */
+  onSet: (rule: AutoApproval | null) => void;
 }
 
-const turnOn = (onSet: AutoApprovalProps["onSet"]): Question => ({
-  title: "Let the critic approve by itself?",
-  text:
-    "Once 50 feedbacks are stored, a proposal moves the simulated robot without your click if the critics predict " +
-    "+0.90 or more and disagree by ± 0.10 or less. One in ten of them waits for you anyway; if you agree too rarely, " +
-    "this ends by itself. Nothing is learned from the critic's own approvals, and Stop works as ever.",
-  yes: "Let it approve",
-  testId: "auto-approval-confirm",
-  act: () => onSet(true),
-});
+/** As the service's own defaults. */
+const FIRST_RULE: Required<AutoApproval> = {
+  predicted_at_least: 0.9,
+  uncertainty_at_most: 0.1,
+  after_feedback: 50,
+  audit_every: 10,
+  agreement_at_least: 0.9,
+};
+
+/** What the rule says, in words. */
+export function ruleIn(rule: AutoApproval): string {
+  const { predicted_at_least, uncertainty_at_most, after_feedback, audit_every } = { ...FIRST_RULE, ...rule };
+  return (
+    `Approves what is predicted ${signed(predicted_at_least)} or more, ±\u00a0${uncertainty_at_most.toFixed(2)} or less, ` +
+    `once ${after_feedback} feedbacks are stored. One in ${audit_every} of those waits for a trainer.`
+  );
+}
+
+function turnOn({ experiment, onSet }: AutoApprovalProps): Question {
+  const rule = { ...FIRST_RULE, ...experiment.auto_approval };
+  return {
+    title: "Let the critic approve by itself?",
+    text:
+      `The simulated robot then moves without your click. ${ruleIn(rule)} If you agree with it too rarely, this ends ` +
+      "by itself. Nothing is learned from the critic's own approvals, and Stop works as ever.",
+    yes: "Let it approve",
+    testId: "auto-approval-confirm",
+    act: () => onSet(rule),
+  };
+}
 
 export function AutoApprovalCard(props: AutoApprovalProps & { record: AutoApprovalRecord | null }) {
   const { experiment, record, onAsk, onSet } = props;
@@ -63,7 +85,7 @@ export function AutoApprovalCard(props: AutoApprovalProps & { record: AutoApprov
             type="button"
             className="button"
             data-testid="auto-approval-off"
-            onClick={() => onSet(false)}
+            onClick={() => onSet(null)}
           >
             Turn off
           </button>
@@ -73,7 +95,7 @@ export function AutoApprovalCard(props: AutoApprovalProps & { record: AutoApprov
             className="button"
             data-testid="auto-approval-on"
             disabled={obstacle !== null}
-            onClick={() => onAsk(turnOn(onSet))}
+            onClick={() => onAsk(turnOn(props))}
           >
             {suspended ? "Turn on again" : "Turn on"}
           </button>
@@ -84,6 +106,7 @@ export function AutoApprovalCard(props: AutoApprovalProps & { record: AutoApprov
           {`Suspended: ${suspended}.`}
         </p>
       )}
+      {on && experiment.auto_approval && <p className="hint">{ruleIn(experiment.auto_approval)}</p>}
       {obstacle && !on && <p className="hint">{obstacle}</p>}
     </section>
   );

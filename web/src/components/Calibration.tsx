@@ -38,20 +38,13 @@ function Plot({ bins, labels }: { bins: Calibration["bins"]; labels: number }) {
         </g>
       ))}
       <path className="ideal" d={`M${across(-1)} ${up(-1)}L${across(1)} ${up(1)}`} />
-      <polyline
-        className="joined"
-        points={bins.map((bin) => `${across(bin.predicted)},${up(bin.label)}`).join(" ")}
-      />
       {bins.map((bin) => (
-        <circle
-          key={bin.low}
-          className="bin"
-          cx={across(bin.predicted)}
-          cy={up(bin.label)}
-          r={2.5 + 5 * Math.sqrt(bin.count / most)}
-        >
-          <title>{`predicted ${signed(bin.predicted)}, labels ${signed(bin.label)} (${bin.count})`}</title>
-        </circle>
+        <g key={bin.low} className="bin">
+          <path d={`M${across(bin.predicted)} ${up(bin.predicted)}V${up(bin.label)}`} />
+          <circle cx={across(bin.predicted)} cy={up(bin.label)} r={2.5 + 5 * Math.sqrt(bin.count / most)}>
+            <title>{`predicted ${signed(bin.predicted)}, labels ${signed(bin.label)} (${bin.count})`}</title>
+          </circle>
+        </g>
       ))}
       <text className="name" x={(across(-1) + across(1)) / 2} y={SIZE - 4} textAnchor="middle">
         predicted feedback

@@ -41,7 +41,7 @@ function dataOf(curve: CurvePoint[]): uPlot.AlignedData {
 }
 
 /** The library, once it is here. */
-function useLibrary(): typeof uPlot | null {
+export function useLibrary(): typeof uPlot | null {
   const [library, setLibrary] = useState<{ plot: typeof uPlot } | null>(null);
   useEffect(() => {
     let gone = false;

@@ -2,7 +2,7 @@ import type { ReactNode } from "react";
 import { Link } from "../router";
 import { Sprout } from "./icons";
 
-/** The bar at the top; `back` leads to the list, `stop` keeps room for the emergency stop. */
+/** The bar at the top; `back` leads to the experiments, `stop` keeps room for the emergency stop. */
 export function Header(props: { back?: boolean; stop?: boolean; children?: ReactNode }) {
   return (
     <header className={props.stop ? "header with-stop" : "header"}>
@@ -13,6 +13,11 @@ export function Header(props: { back?: boolean; stop?: boolean; children?: React
       {props.back && (
         <Link to="/" className="crumb">
           Experiments
+        </Link>
+      )}
+      {!props.stop && (
+        <Link to="/studies" className="crumb">
+          Studies
         </Link>
       )}
       <span className="spring" />

@@ -67,7 +67,7 @@ export function SidePanel({ state, experiment, proposal, session, onAsk }: SideP
         <AutoApprovalPanel
           experiment={experiment}
           onAsk={onAsk}
-          onSet={(on) => void session.setAutoApproval(on)}
+          onSet={(rule) => void session.setAutoApproval(rule)}
         />
       )}
       {simulated && (

@@ -96,7 +96,6 @@ export function TrainerPage({ id }: { id: number }) {
               />
             </div>
             <Curve curve={state.curve} />
-            {experiment && <CalibrationPanel experiment={experiment} />}
           </div>
           {experiment && (
             <SidePanel
@@ -107,6 +106,7 @@ export function TrainerPage({ id }: { id: number }) {
               onAsk={setQuestion}
             />
           )}
+          {experiment && <CalibrationPanel experiment={experiment} />}
         </div>
       </main>
       <Notices notices={state.notices} onDismiss={session.dismiss} />

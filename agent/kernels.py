@@ -1,0 +1,191 @@
+"""Stacked networks forward and backward, each matrix product by the quickest way that PyTorch offers here.
+
+Shapes: C networks of the same shape, B rows, i inputs and o outputs of a layer. Three things cost the plain products
+much (measured on one core of an AMD EPYC with AVX-512; `docs/learning-speed.md`): MKL, which PyTorch calls, runs at
+half the speed of oneDNN on processors that aren't Intel's; a product that ends in a few columns runs at a fraction of
+the speed of the same product transposed; and what doesn't fit a core's cache is fetched again by every operation.
+
+Small networks are a batch of matrices, because there each call costs most; large ones go one after another, so many
+rows at a time. Which way depends on shapes and processor only, never on a clock: the same step gives the same bits.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import torch
+from torch import Tensor
+
+NARROW = 16
+"""A layer with so few outputs is computed transposed: sixteen numbers are one register of AVX-512."""
+LARGE = 2**21
+"""Multiplications of one network's layer from which oneDNN's costlier calls (10 us more) pay."""
+ROWS = 256
+"""Rows of a large network at a time: with 256 units, a layer's activations take a quarter of a 1 MB cache."""
+
+
+@functools.cache
+def onednn() -> bool:
+    """Whether oneDNN's product is there and worth its while: on processors with AVX-512."""
+    mkldnn = torch.backends.mkldnn
+    there = bool(mkldnn.is_available()) and hasattr(torch.ops.mkldnn, "_linear_pointwise")  # type: ignore[no-untyped-call]
+    return there and torch.backends.cpu.get_cpu_capability() == "AVX512"
+
+
+@dataclass(frozen=True)
+class Weights:
+    """Of C networks, by layer: weights (C, i, o) and biases (C, 1, o)."""
+
+    weights: Sequence[Tensor]
+    biases: Sequence[Tensor]
+
+    def of(self, k: int) -> Weights:
+        """One network's: (i, o) and (o,)."""
+        return Weights([w[k] for w in self.weights], [b[k, 0] for b in self.biases])
+
+
+class Pass:
+    """One pass forward, kept for the way back. ReLU between layers."""
+
+    def __init__(self, x: Tensor, weights: Weights, *, learnt: int) -> None:
+        """x: (C, B, i). The weights learn from the first `learnt` rows; of the others, only inputs get a gradient."""
+        self._weights, self._learnt = weights, learnt
+        self._size, self._rows = x.shape[:2]
+        self._one_by_one = _large(x, weights)
+        outputs = weights.weights[-1].shape[-1]
+        self.output: Tensor
+        """(C, B, o)."""
+        self._passed: list[list[Tensor]]
+        if not self._one_by_one:
+            self._passed = [_batched(x, weights)]
+            self.output = self._passed[0].pop()
+            return
+        self._passed = []
+        self.output = x.new_empty(self._size, outputs, self._rows).transpose(1, 2)
+        for k in range(self._size):
+            ours = weights.of(k)
+            for rows in self._parts():
+                passed = _alone(x[k, rows], ours)
+                self.output[k, rows] = passed.pop()
+                self._passed.append(passed)
+
+    def back(self, gradient: Tensor, into: Weights, *, columns: slice | None = None) -> Tensor | None:
+        """From the gradient by the output (C, B, o) to that by the weights, written to `into`.
+
+        columns: of the input; the gradient by those of the rows that aren't learnt from is returned
+        (C, B - learnt, columns). None: none is asked for.
+        """
+        if not self._one_by_one:
+            return self._batched_back(gradient, into, columns)
+        asked: list[Tensor] = []
+        passed = iter(self._passed)
+        for k in range(self._size):
+            ours, gradients = self._weights.of(k), into.of(k)
+            for rows in self._parts():
+                part = gradient[k, rows]
+                if rows.start < self._learnt:
+                    _alone_back(next(passed), ours, part, gradients, add=rows.start > 0)
+                else:
+                    asked.append(_alone_through(next(passed), ours, part, columns or slice(0, 0)))
+        return torch.cat(asked).view(self._size, self._rows - self._learnt, -1) if columns is not None else None
+
+    def _parts(self) -> Iterator[slice]:
+        for start, stop in ((0, self._learnt), (self._learnt, self._rows)):
+            yield from (slice(at, min(at + ROWS, stop)) for at in range(start, stop, ROWS))
+
+    def _batched_back(self, gradient: Tensor, into: Weights, columns: slice | None) -> Tensor | None:
+        (passed,) = self._passed
+        learnt, weights = self._learnt, self._weights.weights
+        for i in reversed(range(len(weights))):
+            ours, x = gradient[:, :learnt], passed[i][:, :learnt]
+            if ours.shape[-1] <= NARROW:
+                into.weights[i].copy_(torch.bmm(ours.transpose(1, 2), x).transpose(1, 2))
+            else:
+                torch.bmm(x.transpose(1, 2), ours, out=into.weights[i])
+            torch.sum(ours, dim=1, keepdim=True, out=into.biases[i])
+            if i:
+                gradient = torch.bmm(gradient, weights[i].transpose(1, 2))
+                _stop_where_zero(gradient, passed[i])
+        if columns is None:
+            return None
+        return torch.bmm(gradient[:, learnt:], weights[0][:, columns].transpose(1, 2))
+
+
+def _large(x: Tensor, weights: Weights) -> bool:
+    """Whether each network is worth going alone, by oneDNN."""
+    most = x.shape[1] * max(w.shape[1] * w.shape[2] for w in weights.weights)
+    return most >= LARGE and x.device.type == "cpu" and x.dtype == torch.float32 and onednn()
+
+
+def _batched(x: Tensor, weights: Weights) -> list[Tensor]:
+    """What goes into each layer, and last the output, (C, B, ...) each."""
+    passed = [x]
+    last = len(weights.weights) - 1
+    for i, (weight, bias) in enumerate(zip(weights.weights, weights.biases, strict=True)):
+        if weight.shape[-1] <= NARROW:
+            out = torch.baddbmm(bias.transpose(1, 2), weight.transpose(1, 2), passed[-1].transpose(1, 2)).transpose(
+                1, 2
+            )
+        else:
+            out = torch.baddbmm(bias, passed[-1], weight)
+        passed.append(out.relu_() if i < last else out)
+    return passed
+
+
+def _alone(x: Tensor, weights: Weights) -> list[Tensor]:
+    """The same for one network: (B, ...) each."""
+    passed = [x]
+    last = len(weights.weights) - 1
+    for i, (weight, bias) in enumerate(zip(weights.weights, weights.biases, strict=True)):
+        if weight.shape[-1] > NARROW:
+            passed.append(_onednn(passed[-1], weight.t(), bias, "relu" if i < last else "none"))
+        else:
+            out = torch.addmm(bias.unsqueeze(1), weight.t(), passed[-1].t()).t()
+            passed.append(out.relu_() if i < last else out)
+    return passed
+
+
+def _alone_back(passed: list[Tensor], weights: Weights, gradient: Tensor, into: Weights, *, add: bool) -> None:
+    """Gradients of one network's weights; added to what is there, or written over it."""
+    kept = 1.0 if add else 0.0
+    for i in reversed(range(len(passed))):
+        x, target = passed[i], into.weights[i]
+        if gradient.shape[-1] <= NARROW:
+            torch.addmm(target.t(), gradient.t(), x, beta=kept, out=target.t())
+        elif x.shape[-1] * gradient.numel() < LARGE:
+            torch.addmm(target, x.t(), gradient, beta=kept, out=target)
+        else:
+            product = _onednn(x.t(), gradient.t(), None, "none")
+            target.add_(product) if add else target.copy_(product)
+        total = gradient.sum(dim=0)
+        into.biases[i].add_(total) if add else into.biases[i].copy_(total)
+        if i:
+            gradient = _before(gradient, weights.weights[i], x)
+
+
+def _alone_through(passed: list[Tensor], weights: Weights, gradient: Tensor, columns: slice) -> Tensor:
+    """The gradient by the input's columns (B, columns) of one network."""
+    for i in reversed(range(1, len(passed))):
+        gradient = _before(gradient, weights.weights[i], passed[i])
+    return gradient @ weights.weights[0][columns].t()
+
+
+def _before(gradient: Tensor, weight: Tensor, x: Tensor) -> Tensor:
+    """From the gradient by a layer's output (B, o) to that before the ReLU that its input x (B, i) came through."""
+    large = gradient.shape[-1] > NARROW
+    gradient = _onednn(gradient, weight, None, "none") if large else gradient @ weight.t()
+    _stop_where_zero(gradient, x)
+    return gradient
+
+
+def _stop_where_zero(gradient: Tensor, activation: Tensor) -> None:
+    """ReLU backward, in place: no gradient where the activation is 0."""
+    torch.ops.aten.threshold_backward.grad_input(gradient, activation, 0, grad_input=gradient)
+
+
+def _onednn(x: Tensor, weight: Tensor, bias: Tensor | None, way: str) -> Tensor:
+    """X (B, i) times the transpose of weight (o, i)."""
+    out: Tensor = torch.ops.mkldnn._linear_pointwise(x, weight, bias, way, [], "")
+    return out

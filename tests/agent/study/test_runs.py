@@ -1,0 +1,108 @@
+"""One run of every kind of learner, interrupted and gone on with: the numbers are those of a run in one go."""
+
+from __future__ import annotations
+
+import dataclasses
+import itertools
+from pathlib import Path
+
+import pytest
+import torch
+
+from agent.study.algorithms import CONTESTANTS, ORACLE
+from agent.study.plan import SCENARIOS, Plan, Protocol, planned
+from agent.study.records import Folder, Row
+from agent.study.runs import work
+from server.workers.study import builders
+
+SMALL = {"hidden_size": 16, "batch_size": 16, "gradient_steps": 1}
+
+
+@pytest.fixture(autouse=True)
+def _one_thread() -> None:
+    torch.set_num_threads(1)  # as `work` does, and as every other test's process has it
+
+
+def small(name: str, scenario: str, budget: int, evaluations: int) -> Plan:
+    """A study of one run of a learner that costs nothing, and of its oracle where it has one."""
+    contestant, settings = CONTESTANTS[name], SMALL
+    if contestant.kind != "feedback":
+        settings = SMALL | {"warm_up": 5}
+    chosen = contestant.model_copy(update={"settings": {**contestant.settings, **settings}})
+    return planned(
+        "small",
+        "kinematic",
+        [(SCENARIOS[scenario], [chosen])],
+        seeds=[3],
+        budgets={scenario: budget},
+        protocol=Protocol(evaluations=evaluations, rollouts=1),
+        oracle=ORACLE.model_copy(update={"settings": {**ORACLE.settings, "warm_up": 20}}),
+    )
+
+
+def numbers(path: Path, plan: Plan) -> list[Row]:
+    """Every row of the last run, without the clock."""
+    return [dataclasses.replace(row, seconds=0.0) for row in Folder(path).rows(plan.runs[-1].id)]
+
+
+def whole(plan: Plan, path: Path) -> list[Row]:
+    """Do all runs in one go."""
+    for run in plan.runs:
+        assert work(run, plan, path, builders("kinematic"), lambda: False).state == "finished"
+    return numbers(path, plan)
+
+
+def in_pieces(plan: Plan, path: Path, every: int) -> list[Row]:
+    """Do all runs, each interrupted again and again."""
+    for run in plan.runs:
+        for piece in itertools.count(1):
+            asked = itertools.count()
+            limit = every * piece  # longer each time: what came after the last evaluation is done anew
+            progress = work(run, plan, path, builders("kinematic"), lambda: next(asked) >= limit)  # noqa: B023
+            if progress.state == "finished":
+                break
+            assert progress.state == "interrupted"
+    return numbers(path, plan)
+
+
+@pytest.mark.parametrize(
+    ("name", "scenario", "budget", "every"),
+    [
+        ("seed", "reaching", 60, 9),
+        ("seed-recommended", "first_subgoal", 12, 5),
+        ("maple-aff", "sweeping", 15, 6),
+        ("tamer", "reaching", 60, 25),
+    ],
+)
+def test_an_interrupted_run_ends_with_the_same_numbers(
+    tmp_path: Path, name: str, scenario: str, budget: int, every: int
+) -> None:
+    plan = small(name, scenario, budget, evaluations=3)
+    expected = whole(plan, tmp_path / "whole")
+    assert expected[-1].evaluation == 3
+    assert expected[-1].updates > 0
+    assert in_pieces(plan, tmp_path / "pieces", every) == expected
+
+
+def test_a_judged_skill_that_was_refused_costs_no_low_level_step(tmp_path: Path) -> None:
+    plan = small("seed", "reaching", 40, 2)
+    last = whole(plan, tmp_path)[-1]
+    assert last.decisions <= 8  # the budget would pay so many of the shortest skills
+    assert (last.low_level_steps == 0) == (last.executions == 0)
+
+
+def test_a_run_says_what_it_was_made_of(tmp_path: Path) -> None:
+    plan = small("maple-aff", "sweeping", 2, 1)
+    whole(plan, tmp_path)
+    run = plan.runs[-1]
+    described = (Folder(tmp_path).run(run.id) / "run.json").read_text("utf-8")
+    for told in ('"seed": 3', '"adapter": "kinematic"', '"torch": "2', '"code": "', '"hidden_size": 16'):
+        assert told in described
+
+
+def test_a_run_whose_oracle_failed_fails_and_says_why(tmp_path: Path) -> None:
+    plan = small("tamer", "reaching", 10, 1)
+    progress = work(plan.runs[-1], plan, tmp_path, builders("kinematic"), lambda: False)
+    assert progress.state == "failed"
+    assert progress.error is not None
+    assert "isn't finished" in progress.error

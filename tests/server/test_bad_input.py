@@ -1,0 +1,88 @@
+"""What no trainer gives but a lab does: a hidden object, a foreign checkpoint, a task changed under its labels."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+from agent.config import SEED, SeedSettings
+from server.schemas import Lifecycle
+from server.worker import CommandFailed, Worker
+from tests.agent.problems import of_task
+from tests.live import PLUGINS
+from tests.server.stage import PATIENCE, SMALL, Stage, stage
+
+
+async def failure(s: Stage, experiment_id: int) -> str:
+    await s.hub.idle(experiment_id)
+    view = await s.hub.view(experiment_id)
+    assert view.lifecycle is Lifecycle.FAILED
+    return str(view.failure)
+
+
+async def test_a_state_with_a_hole_fails_by_name_and_goes_on_once_it_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.syspath_prepend(str(PLUGINS))
+    monkeypatch.setenv("PYTHONPATH", str(PLUGINS))
+    flag = tmp_path / "hidden"
+    async with stage(tmp_path / "data") as s:
+        settings = {"flag": str(flag), "draw": False}
+        experiment = await s.experiment(adapter="blinded", adapter_settings=settings)
+        await s.hub.act(experiment.id, "start")
+        first = await s.proposal()
+        flag.touch()
+        await s.judge(first, 1)  # the robot moves, so it looks again
+        why = await failure(s, experiment.id)
+        assert "block_b_position[1] = nan" in why
+        assert "check what perceives this value" in why
+        flag.unlink()
+        at = s.now
+        await s.hub.act(experiment.id, "resume")
+        second = await s.proposal(at)
+        assert (await s.hub.view(experiment.id)).counters.feedback == 1
+        assert all(abs(x) < 10 for x in second.state)
+
+
+async def test_a_checkpoint_of_another_task_is_told_and_the_labels_rebuild_the_learner(tmp_path: Path) -> None:
+    async with stage(tmp_path) as s:
+        experiment = await s.experiment(teacher="synthetic")
+        await s.hub.act(experiment.id, "start", until=2)
+        await s.hub.idle(experiment.id)
+        [path] = sorted((tmp_path / "checkpoints" / str(experiment.id)).iterdir())
+        SEED(of_task("reaching"), SeedSettings(**SMALL), 0).save(path)
+    async with stage(tmp_path) as s:
+        await s.hub.act(experiment.id, "resume", until=4)
+        await s.hub.idle(experiment.id)
+        assert (await s.hub.view(experiment.id)).counters.feedback == 4
+        # the steps of the first two labels were taken again, and those of the third, before the fourth proposal
+        assert (await s.store.proposals(experiment.id)).items[0].policy_version == 15
+        events = (await s.store.events(experiment.id, limit=200)).items
+        [unusable] = [event for event in events if event.kind == "checkpoint_unusable"]
+        assert "task: file has reaching, wanted stacking" in unusable.payload["detail"]
+
+
+async def test_feedback_about_what_the_task_no_longer_has_is_told() -> None:
+    """A task of one's own is edited while its experiment rests: what is stored is about the task as it was."""
+    learner = await Worker.spawn("learner", "server.workers.learner")
+    try:
+        built = {"task": "stacking", "algorithm": "seed", "settings": SMALL, "seed": 0, "lockstep": True, "threads": 1}
+        await learner.call("configure", deadline=PATIENCE, **built)
+        stored = {"id": 7, "state": [0.5] * 6, "skill": "pick", "parameters": [0.5, 0.0, -0.09], "value": 1}
+        for change, told in (
+            ({"skill": "juggle"}, "no skill 'juggle'"),
+            ({"parameters": [0.5, 0.0]}, "pick takes 3 parameters, got 2"),
+            ({"parameters": [0.5, 0.2, -0.09]}, r"pick.y = 0.2 is outside"),
+            ({"state": [0.5, 0.0]}, "its state has 2 numbers, the task's has 6"),
+        ):
+            with pytest.raises(CommandFailed, match=f"feedback 7 doesn't fit the task 'stacking': .*{told}") as error:
+                await learner.call("restore", deadline=PATIENCE, labels=[stored | {"id": 3}, stored | change])
+            assert "put it back as it was and resume, or create a new experiment" in error.value.remedy
+        restored = await learner.call("restore", deadline=PATIENCE, labels=[stored])
+        assert (restored["last_label_id"], restored["owed_updates"]) == (7, 5)
+        with pytest.raises(CommandFailed, match=r"not finite: block_b_position\[0\] = nan"):
+            await learner.call("propose", deadline=PATIENCE, state=[0.5] * 3 + [math.nan] * 3, deterministic=False)
+    finally:
+        await learner.close()

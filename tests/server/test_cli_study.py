@@ -1,0 +1,131 @@
+"""`seed study` as a person uses it: a process, its folder, its exit code; killed, and gone on with."""
+
+from __future__ import annotations
+
+import csv
+import json
+import signal
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from agent.study.records import EVALUATIONS, Folder
+from server.cli import app
+from tests.live import wait_for
+from tests.server.test_cli import begun, seed
+
+TINY = (
+    "study", "paper-sim", "--adapter", "kinematic", "--tasks", "first_subgoal", "--algorithms", "seed-recommended",
+    "--seeds", 2, "--budget", 16, "--evaluations", 8, "--rollouts", 1, "--jobs", 1,
+)  # fmt: skip
+
+
+FIRST = "first_subgoal-seed-recommended-10"
+
+
+def measured(folder: Path) -> dict[str, list[list[str]]]:
+    """Run -> the rows of its evaluations, without the clock."""
+    found = {}
+    for path in sorted(folder.glob(f"runs/*/{EVALUATIONS}")):
+        with path.open(newline="") as file:
+            found[path.parent.name] = [row[:-1] for row in csv.reader(file)]
+    return found
+
+
+def evaluations(folder: Path) -> int:
+    """How many the first run has."""
+    return len(Folder(folder).rows(FIRST))
+
+
+def wrong(arguments: Sequence[object], *words: str) -> None:
+    """The command ends as one with wrong arguments, in this process: others cost seconds each."""
+    done = CliRunner().invoke(app, [str(each) for each in arguments])
+    assert done.exit_code == 2, done.output
+    for word in ("error:", "remedy:", *words):
+        assert word in done.output, done.output
+
+
+def test_a_killed_study_goes_on_to_the_same_numbers(tmp_path: Path) -> None:
+    whole, killed = tmp_path / "data" / "studies" / "paper-sim", tmp_path / "killed"
+    done = seed(*TINY, "--data-dir", tmp_path / "data", "--json")
+    assert done.returncode == 0, done.stderr
+    told = json.loads(done.stdout.splitlines()[-1])
+    assert (told["runs"], told["finished"], told["failed"]) == (2, 2, 0)
+    assert told["folder"] == str(whole)
+    (result,) = told["results"]
+    assert (result["task"], result["algorithm"], result["seeds"]) == ("first_subgoal", "seed-recommended", 2)
+    assert result["reached"] == 16
+    assert 0 <= result["successes"]["iqm"] <= 16
+    expected = measured(whole)
+    assert [row[0] for row in expected["first_subgoal-seed-recommended-10"][1:]] == [str(n) for n in range(9)]
+    for name in ("first_subgoal.png", "first_subgoal.svg"):
+        assert (whole / "figures" / name).stat().st_size > 5000
+    table = (whole / "table.md").read_text("utf-8")
+    assert "Budget 16 decisions a run (the paper's figure goes to 250); 2 seeds; kinematic adapter" in table
+    assert "| 6, 9, 12 |" not in table  # the paper's SEED is not our recommended preset
+    assert len((whole / "results.csv").read_text().splitlines()) == 3
+
+    again = ("study", "paper-sim", "--out", killed, "--resume")
+    # ended in order after two evaluations, killed after three more
+    for begin, rows, number in ((TINY, 2, signal.SIGTERM), (again, 5, signal.SIGKILL)):
+        process = begun(*begin, "--out", killed)
+        try:
+            wait_for(lambda rows=rows: evaluations(killed) >= rows, f"{rows} evaluations", timeout=90)  # type: ignore[misc]
+            process.send_signal(number)
+            _, said = process.communicate(timeout=60)
+        finally:
+            process.kill()
+            process.communicate()
+        if number is signal.SIGTERM:
+            assert process.returncode == 130, said
+            assert "Traceback" not in said
+            assert f"seed study paper-sim --resume --out {killed}" in said.replace("\n", "")
+            assert Folder(killed).progress(FIRST, live=False).state == "interrupted"
+            assert "0 of 2 finished" in (killed / "table.md").read_text("utf-8")
+    wait_for(lambda: not Folder(killed).live, "the killed study's lock to be free")
+
+    wrong([*TINY, "--out", killed], "holds a study already", "--resume")
+    wrong([*again, "--seeds", 3], "--seeds", "planned already")
+    done = seed(*again, "--jobs", 2, "--json")
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout.splitlines()[-1])["results"] == told["results"]
+    assert measured(killed) == expected
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--algorithms", "seed,dqn"), ("--algorithms", "dqn", "maple-aff")),
+        (("--tasks", "juggling"), ("--tasks", "juggling", "first_subgoal")),
+        (("--budget", "0"), ("--budget", "'0'", "1 or more")),
+        (("--budget", "reaching=many"), ("--budget", "reaching=20000")),
+        (("--budget", "juggling=5"), ("--budget", "juggling", "reaching")),
+        (("--adapter", "ur5"), ("ur5", "kinematic")),
+        (("--tasks", "first_subgoal", "--algorithms", "sac"), ("skills only", "leave out sac")),
+        (("--resume",), ("no study", "--out")),
+    ],
+)
+def test_what_is_wrong_is_named(tmp_path: Path, options: tuple[str, ...], words: tuple[str, ...]) -> None:
+    wrong(["study", "paper-sim", "--out", tmp_path / "study", *options], *words)
+    assert not list(tmp_path.glob("study/*.json"))
+
+
+def test_folders_of_something_else_are_left_alone(tmp_path: Path) -> None:
+    thesis = tmp_path / "thesis" / "chapter.tex"
+    thesis.parent.mkdir()
+    thesis.write_text("mine")
+    wrong([*TINY, "--out", thesis.parent], "no empty folder")
+    assert [each.name for each in thesis.parent.iterdir() if not each.name.startswith(".")] == ["chapter.tex"]
+    other = tmp_path / "other"
+    other.mkdir()
+    (other / "study.json").write_text('{"plan": {"name": "another"}}')
+    wrong(["study", "paper-sim", "--resume", "--out", other], "can't be read")
+
+
+def test_the_list_names_every_task_and_algorithm() -> None:
+    told = CliRunner().invoke(app, ["study", "list"])
+    assert told.exit_code == 0
+    for word in ("paper-sim", "reaching", "cooking_hotdog", "first_subgoal", "seed-recommended", "tamer"):
+        assert word in told.stdout

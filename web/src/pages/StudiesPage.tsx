@@ -1,0 +1,95 @@
+// Every study in the data directory, as far as it is; studies are run from the command line.
+import { useEffect } from "react";
+import { Header } from "../components/Header";
+import { Sprout } from "../components/icons";
+import { StudyProgress, studyState } from "../components/StudyProgress";
+import * as http from "../http";
+import { Link } from "../router";
+import { usePolled } from "../usePolled";
+import type { StudySummary } from "../wire";
+
+const REFRESH_MS = 2500;
+
+function Empty() {
+  return (
+    <div className="empty" data-testid="no-studies">
+      <Sprout />
+      <h2>No studies yet</h2>
+      <p>
+        A study trains several algorithms on several tasks from several seeds, without a browser, and ends in
+        curves beside the paper's. Run one on the machine of this service:
+      </p>
+      <code className="command">seed study paper-sim --adapter kinematic --seeds 3 --budget 300</code>
+      <p>It appears here as soon as it begins.</p>
+    </div>
+  );
+}
+
+function StudyRow({ study }: { study: StudySummary }) {
+  return (
+    <li className="row study-row" data-testid="study">
+      <div>
+        <div className="title-line">
+          <h2>
+            <Link to={`/studies/${encodeURIComponent(study.name)}`}>{study.name}</Link>
+          </h2>
+          <StudyProgress state={studyState(study)} />
+        </div>
+        <p className="facts">
+          {study.problem ??
+            `${study.study} · ${study.adapter} · ${study.created_at ? new Date(study.created_at).toLocaleString() : ""}`}
+        </p>
+      </div>
+      <dl className="figure">
+        <dt>Done</dt>
+        <dd>{`${Math.floor(100 * study.done)} %`}</dd>
+      </dl>
+      <dl className="figure">
+        <dt>Runs</dt>
+        <dd>{`${study.finished}/${study.runs}`}</dd>
+      </dl>
+      <dl className="figure">
+        <dt>Failed</dt>
+        <dd>{study.failed}</dd>
+      </dl>
+    </li>
+  );
+}
+
+export function StudiesPage() {
+  const { value, problem, refresh } = usePolled(http.studies, REFRESH_MS);
+  useEffect(() => {
+    document.title = "Studies · SEED";
+  }, []);
+  return (
+    <>
+      <Header back />
+      <main className="page narrow">
+        <div className="title-row">
+          <h1 className="title-text">Studies</h1>
+        </div>
+        {problem && (
+          <div className="banner" role="alert">
+            <div>
+              <b>{problem.detail}</b> {problem.remedy}
+            </div>
+            <button type="button" className="button" onClick={refresh}>
+              Try again
+            </button>
+          </div>
+        )}
+        {value === null && !problem && (
+          <div className="rows" role="status" aria-label="Loading">
+            <div className="skeleton" />
+          </div>
+        )}
+        {value?.length === 0 && <Empty />}
+        <ul className="rows">
+          {value?.map((each) => (
+            <StudyRow key={each.name} study={each} />
+          ))}
+        </ul>
+      </main>
+    </>
+  );
+}
