@@ -7,8 +7,8 @@ from playwright.sync_api import expect
 from tests.e2e.trainer import START_MS, Opener
 from tests.live import wait_for
 
-SLOW = {"step_seconds": 0.1}
-"""A skill takes some seconds: time to judge, and to look at, the other robot."""
+SLOW = {"step_seconds": 0.5}
+"""A skill takes some ten seconds: time to judge, and to look at, the other robot."""
 
 
 def test_one_robot_is_judged_while_the_other_moves(opener: Opener) -> None:

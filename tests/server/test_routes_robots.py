@@ -45,7 +45,7 @@ async def test_the_number_of_robots_is_chosen_at_creation_for_simulators_only(
 
 def test_three_robots_are_judged_by_a_client_over_a_crash_of_the_service(own_service: LiveService) -> None:
     service = own_service
-    experiment = service.experiment(adapter="kinematic", num_envs=3, adapter_settings={"step_seconds": 0.05})
+    experiment = service.experiment(adapter="kinematic", num_envs=3, adapter_settings={"step_seconds": 0.3})
     path = f"/experiments/{experiment}"
     numbers = itertools.count(1)
 
