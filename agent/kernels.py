@@ -116,8 +116,10 @@ class Pass:
 
 def _large(x: Tensor, weights: Weights) -> bool:
     """Whether each network is worth going alone, by oneDNN."""
-    most = x.shape[1] * max(w.shape[1] * w.shape[2] for w in weights.weights)
-    return most >= LARGE and x.device.type == "cpu" and x.dtype == torch.float32 and onednn()
+    work = x.shape[1] * max(w.shape[1] * w.shape[2] for w in weights.weights)
+    together = x.shape[0] * x.shape[1] * max(w.shape[2] for w in weights.weights)
+    enough = work >= LARGE or (work >= LARGE // 2 and together >= 4 * ACTIVATIONS)  # the batch leaves the cache
+    return enough and x.device.type == "cpu" and x.dtype == torch.float32 and onednn()
 
 
 def _batched(x: Tensor, weights: Weights) -> list[Tensor]:
