@@ -12,11 +12,13 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor
 
+from agent.config import SeedSettings
 from agent.exploring import disagreement, promise
 from agent.grounding import Grounding
 from agent.networks import Networks
 from agent.proposing import Choice
 from agent.replay import Batch, Float32, Replay
+from agent.search import Elimination
 
 SAME_SITUATION = 0.02
 """States that differ by no more than this in any entry, scaled to [-1, 1], are the same situation."""
@@ -47,14 +49,30 @@ FAR = 2.0
 
 @dataclass(frozen=True)
 class Search:
-    """What settings say of choosing. spacing: m; curiosity: 0 unless `explore` is `uncertainty`; the rest as there."""
+    """What settings say of choosing, as in `SeedSettings`. curiosity: 0 unless `explore` is `uncertainty`."""
 
     candidates: int
     temperature: float
     optimism: float
     spacing: float
     recall: int
-    curiosity: float = 0.0
+    curiosity: float
+    eliminate: bool
+    avoid: bool
+
+
+def search_of(settings: SeedSettings) -> Search:
+    """Those of the settings that this module reads."""
+    return Search(
+        candidates=settings.candidates,
+        temperature=settings.candidate_temperature,
+        optimism=settings.explore_optimism,
+        spacing=settings.explore_spacing,
+        recall=settings.recall,
+        curiosity=settings.explore_curiosity if settings.explore == "uncertainty" else 0.0,
+        eliminate=settings.explore_elimination,
+        avoid=settings.avoid_refused,
+    )
 
 
 class Chooser:
@@ -62,6 +80,11 @@ class Chooser:
 
     def __init__(self, networks: Networks, grounding: Grounding, replay: Replay, search: Search) -> None:
         self._networks, self._grounding, self._replay, self._search = networks, grounding, replay, search
+        free = torch.nonzero((grounding.option_keypoint < 0) & grounding.position[grounding.option_skill])[:, 0]
+        self._eliminations: dict[int, Elimination] = {}
+        if search.eliminate:
+            skills = grounding.option_skill
+            self._eliminations = {o: Elimination(grounding, int(skills[o]), search.spacing) for o in free.tolist()}
 
     @torch.inference_mode()
     def choose(self, state: Float32, keypoints: Float32, generator: torch.Generator, *, deterministic: bool) -> Choice:
@@ -79,8 +102,10 @@ class Chooser:
         recalled = max(0, len(options) - search.recall)
         options, local = good = options[recalled:], local[recalled:]
         parts = [(torch.arange(grounding.options), torch.tanh(mean)), (options, local)]
+        refused = self._replay.refused(state, SAME_SITUATION)
         if not deterministic:
             parts += self._drawn((mean, log_std), promising, generator)
+            self._look(parts, promising, refused, generator)
             parts.append((options, local + JITTER * torch.randn(local.shape, generator=generator)))
             # the same position, other parameters: how far a push goes may differ from state to state
             anew = 2 * torch.rand(local[:, 3:].shape, generator=generator) - 1
@@ -96,9 +121,9 @@ class Chooser:
             weights = torch.zeros(size)
             weights[at] = 1.0
         else:
-            refused = self._replay.refused(state, SAME_SITUATION)
             score = score + search.optimism * ~promising[options]
-            score = score - _refused(grounding, refused, search, promising, (options, parameters))
+            if search.avoid:
+                score = score - self._lost(refused, promising, options, parameters)
             weights = torch.softmax(score / search.temperature, dim=0)
             at = int(torch.multinomial(weights, 1, generator=generator))
         probabilities = torch.zeros(networks.layout.skills).index_add_(0, skills, weights)
@@ -131,6 +156,27 @@ class Chooser:
         lost = torch.nonzero(~promising)[:, 0].repeat_interleave(shape[1])
         parts = ((every, drawn), (every, around), (lost, centred[~promising]))
         return [(options, local.flatten(0, 1)) for options, local in parts]
+
+    def _look(
+        self, parts: list[tuple[Tensor, Tensor]], promising: Tensor, refused: Batch, generator: torch.Generator
+    ) -> None:
+        """Put the candidates of every skill that is still looked for where looking decides most."""
+        for option, elimination in self._eliminations.items():
+            if promising[option]:
+                continue
+            skill = int(self._grounding.option_skill[option])
+            here, anywhere = (
+                torch.from_numpy(batch.parameters[batch.skills == skill, :3]) for batch in (refused, self._replay.bad())
+            )
+            at = elimination.next(here, anywhere, generator)
+            for options, local in parts:
+                local[options == option, :3] = at
+
+    def _lost(self, refused: Batch, promising: Tensor, options: Tensor, parameters: Tensor) -> Tensor:
+        """`_refused`, but where elimination looks, it has heeded the refused spots already."""
+        near, tired = _refused(self._grounding, refused, self._search, promising, (options, parameters))
+        looked_for = torch.tensor([o in self._eliminations and not promising[o] for o in range(len(promising))])
+        return torch.where(looked_for[options], 0.0, near) + tired
 
 
 def _inner(grounding: Grounding, spacing: float) -> Tensor:
@@ -172,12 +218,12 @@ def _away(grounding: Grounding, good: tuple[Tensor, Tensor], options: Tensor, lo
 
 def _refused(
     grounding: Grounding, refused: Batch, search: Search, promising: Tensor, calls: tuple[Tensor, Tensor]
-) -> Tensor:
-    """(C,) what each candidate loses for what was refused in this situation: nearby, and of the same option at all."""
+) -> tuple[Tensor, Tensor]:
+    """(C,) each: what candidates lose for what was refused in this situation nearby, and of the same option at all."""
     options, parameters = calls
     skills = grounding.option_skill[options]
     if not len(refused.skills):
-        return torch.zeros(len(skills))
+        return torch.zeros(len(skills)), torch.zeros(len(skills))
     their_skills, theirs = torch.from_numpy(refused.skills), torch.from_numpy(refused.parameters)
     grounded = torch.zeros(len(grounding.half), dtype=torch.bool)
     grounded[grounding.option_skill[grounding.option_keypoint >= 0]] = True
@@ -193,7 +239,7 @@ def _refused(
     their_options, _ = grounding.encode(their_skills, theirs, torch.from_numpy(refused.keypoints))
     times = (options[:, None] == their_options).sum(dim=1)
     tired = (torch.tensor(FATIGUE)[promising[options].long()] * times).clamp(max=MOST_TIRED)
-    return REFUSED * near.amax(dim=1) + tired
+    return REFUSED * near.amax(dim=1), tired
 
 
 def _coordinates(grounding: Grounding, scale: Tensor, skills: Tensor, parameters: Tensor) -> Tensor:

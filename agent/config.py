@@ -157,6 +157,24 @@ class SeedSettings(BaseModel):
             description="m around a refused spot without a key point where candidates of the same situation lose score",
         ),
     ] = 0.05
+    balanced_replay: Annotated[
+        bool,
+        Field(
+            description="a batch is half good and half bad, whatever there is more of (paper: balanced replay "
+            "buffer); otherwise each label is as likely"
+        ),
+    ] = True
+    explore_elimination: Annotated[
+        bool,
+        Field(
+            description="a skill without key points that was never called good is tried where most is left of what "
+            "refusals within `explore_spacing` have not ruled out; otherwise at random, away from them"
+        ),
+    ] = False
+    avoid_refused: Annotated[
+        bool,
+        Field(description="with `candidates`: calls near one that was refused in this very situation lose their turn"),
+    ] = True
     explore: Annotated[
         Literal["value", "uncertainty"],
         Field(
@@ -220,6 +238,7 @@ RECOMMENDED: Mapping[str, Any] = MappingProxyType(
         "augment_rotation": True,
         "candidates": 32,
         "recall": 16,
+        "explore_elimination": True,
     }
 )
 """What needs the fewest clicks (measured by `tests/benchmarks/clicks_kinematic.py`)."""

@@ -20,10 +20,10 @@ from torch import Tensor
 
 NARROW = 16
 """A layer with so few outputs is computed transposed: sixteen numbers are one register of AVX-512."""
-LARGE = 2**21
-"""Multiplications of one network's layer from which oneDNN's costlier calls (10 us more) pay."""
-ROWS = 256
-"""Rows of a large network at a time: with 256 units, a layer's activations take a quarter of a 1 MB cache."""
+LARGE = 2**22
+"""Multiplications of one network's layer from which oneDNN pays, whose calls cost some 10 us more; found by trying."""
+ACTIVATIONS = 2**16
+"""Numbers that a large network's layer gives at a time, a quarter of a cache of 1 MB: 256 rows of 256 units."""
 
 
 @functools.cache
@@ -92,8 +92,9 @@ class Pass:
         return torch.cat(asked).view(self._size, self._rows - self._learnt, -1) if columns is not None else None
 
     def _parts(self) -> Iterator[slice]:
+        most = ACTIVATIONS // max(w.shape[2] for w in self._weights.weights)
         for start, stop in ((0, self._learnt), (self._learnt, self._rows)):
-            yield from (slice(at, min(at + ROWS, stop)) for at in range(start, stop, ROWS))
+            yield from (slice(at, min(at + most, stop)) for at in range(start, stop, most))
 
     def _batched_back(self, gradient: Tensor, into: Weights, columns: slice | None) -> Tensor | None:
         (passed,) = self._passed
@@ -115,8 +116,10 @@ class Pass:
 
 def _large(x: Tensor, weights: Weights) -> bool:
     """Whether each network is worth going alone, by oneDNN."""
-    most = x.shape[1] * max(w.shape[1] * w.shape[2] for w in weights.weights)
-    return most >= LARGE and x.device.type == "cpu" and x.dtype == torch.float32 and onednn()
+    work = x.shape[1] * max(w.shape[1] * w.shape[2] for w in weights.weights)
+    together = x.shape[0] * x.shape[1] * max(w.shape[2] for w in weights.weights)
+    enough = work >= LARGE or (work >= LARGE // 2 and together >= 4 * ACTIVATIONS)  # the batch leaves the cache
+    return enough and x.device.type == "cpu" and x.dtype == torch.float32 and onednn()
 
 
 def _batched(x: Tensor, weights: Weights) -> list[Tensor]:

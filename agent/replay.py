@@ -76,7 +76,16 @@ class Replay:
     on the order of arrival, undone labels or a restart.
     """
 
-    def __init__(self, state_size: int, parameter_size: int, keypoints: tuple[int, ...] = NO_KEYPOINTS) -> None:
+    def __init__(
+        self,
+        state_size: int,
+        parameter_size: int,
+        keypoints: tuple[int, ...] = NO_KEYPOINTS,
+        *,
+        balanced: bool = True,
+    ) -> None:
+        """balanced: whether `sample` keeps to `shares`; otherwise every label is as likely."""
+        self._balanced = balanced
         self._size = 0
         self._ids = np.zeros(INITIAL_CAPACITY, dtype=np.int64)
         self._states = np.zeros((INITIAL_CAPACITY, state_size), dtype=np.float32)
@@ -166,13 +175,15 @@ class Replay:
         self._by_value = None
 
     def sample(self, size: int, rng: np.random.Generator) -> Batch:
-        """Draw `size` labels with replacement in the proportions of `shares`.
+        """Draw `size` labels with replacement, in the proportions of `shares` where it is balanced.
 
         Raises:
             ValueError: the replay is empty.
         """
         if not self._size:
             raise ValueError("the replay is empty")
+        if not self._balanced:
+            return self._batch(rng.integers(self._size, size=size))
         rows = self._rows()
         wanted = shares({value: len(found) for value, found in rows.items()}, size)
         drawn = np.concatenate(
@@ -183,6 +194,10 @@ class Replay:
     def good(self) -> Batch:
         """The newest labels that said good, `RECENT` at most."""
         return self._batch(self._rows()[1][-RECENT:])
+
+    def bad(self) -> Batch:
+        """Those of the newest `RECENT` labels that said bad."""
+        return self._batch(self._rows()[-1][-RECENT:])
 
     def refused(self, state: Float32, tolerance: float) -> Batch:
         """Those of the newest `RECENT` labels that said otherwise than good in this state (n,), give or take."""

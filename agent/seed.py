@@ -18,7 +18,7 @@ import torch
 from agent import checkpoint
 from agent.algorithm import CheckpointError, Label, Problem, Suggestion
 from agent.arena import ADAM_STATE
-from agent.candidates import Chooser, Search
+from agent.candidates import Chooser, search_of
 from agent.config import SeedSettings
 from agent.encoding import Encoder
 from agent.grounding import grounding
@@ -67,15 +67,12 @@ class Seed:
             parameter_entropy=settings.parameter_entropy * self._networks.mask.sum(dim=-1),
         )
         self._trainer, self._place = Trainer([self._networks], objective), 0
-        self._replay = Replay(layout.state_size, layout.width, self._encoder.keypoint_shape)
+        self._replay = Replay(
+            layout.state_size, layout.width, self._encoder.keypoint_shape, balanced=settings.balanced_replay
+        )
         self._chooser: Chooser | None = None
         if settings.candidates:
-            s = settings
-            curiosity = s.explore_curiosity if s.explore == "uncertainty" else 0.0
-            search = Search(
-                s.candidates, s.candidate_temperature, s.explore_optimism, s.explore_spacing, s.recall, curiosity
-            )
-            self._chooser = Chooser(self._networks, self._grounding, self._replay, search)
+            self._chooser = Chooser(self._networks, self._grounding, self._replay, search_of(settings))
         self._forgotten: set[int] = set()
         self._labels_seen = 0
         self._owed = 0

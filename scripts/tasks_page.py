@@ -45,9 +45,8 @@ HAND = {
     "reaching": "nothing.",
     "stacking": "a block off the table or out of reach.",
     "sweeping": "broom or toy off the table or out of reach; the broom tilted by more than 45°.",
-    "collecting_toy": "the drawer closed with the toy outside; the toy off the table, out of reach or tilted by more "
-    "than 45°.",
-    "cooking_hotdog": "skillet or sausage off the table, out of reach or tilted by more than 45°.",
+    "collecting_toy": "the drawer closed with the toy outside; the toy off the table or out of reach.",
+    "cooking_hotdog": "skillet or sausage off the table or out of reach; the skillet tilted by more than 45°.",
 }
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import logging
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any, NoReturn
 
@@ -14,9 +14,10 @@ from rich.console import Console
 from agent.algorithm import AgentError
 from agent.study.algorithms import CONTESTANTS
 from agent.study.execution import ProcessDied
-from agent.study.plan import SCENARIOS, Plan
+from agent.study.plan import CLICKS, SCENARIOS, Plan
 from robot_adapters.base import AdapterError, Unavailable
-from server.study_plans import competing, named, plan_of
+from server.study_claims import CLAIMS, run_claim
+from server.study_plans import FIRST_SEED, ablated, competing, named, plan_of
 from server.study_runs import Place, run_study
 from server.study_screen import results_table
 
@@ -53,6 +54,10 @@ Resume = Annotated[bool, typer.Option("--resume", help="go on with the study in 
 DataDir = Annotated[Path | None, typer.Option(help="data directory [default: data, or SEED_DATA_DIR]")]
 AsJson = Annotated[bool, typer.Option("--json", help="print one JSON object as the last line")]
 
+ClaimSeeds = Annotated[int, typer.Option("--seeds", min=1, help="seeds, each trained anew")]
+ClaimFirst = Annotated[int, typer.Option("--first-seed", min=0, max=2**31 - 1, help="the first of them")]
+ClaimRollouts = Annotated[int, typer.Option("--rollouts", min=1, max=1000, help="rollouts of a success rate")]
+
 
 @app.command("list")
 def list_studies() -> None:
@@ -60,7 +65,11 @@ def list_studies() -> None:
     typer.echo("paper-sim: the paper's comparisons on a simulator")
     for scenario in SCENARIOS.values():
         unit = scenario.axis.value.replace("_", " ")
-        typer.echo(f"  {scenario.name:<16} {scenario.paper_budget:>9,} {unit}: {', '.join(scenario.algorithms)}")
+        typer.echo(f"  {scenario.name:<16} {scenario.usual_budget:>9,} {unit}: {', '.join(scenario.algorithms)}")
+    typer.echo("ablation: the preset recommended, one ingredient taken away at a time")
+    typer.echo(f"  tasks: {', '.join(CLICKS)}; ingredients: {', '.join(ablated())}")
+    for claim in CLAIMS.values():
+        typer.echo(f"{claim.name}: {claim.title}")
 
 
 @app.command("paper-sim")
@@ -100,6 +109,83 @@ def paper_sim(  # noqa: PLR0917  Typer makes an option of each
         return plan_of("paper-sim", entries, given)
 
     _run("paper-sim", plan, given, Place(out, data_dir, jobs, resume), as_json=as_json)
+
+
+@app.command()
+def ablation(  # noqa: PLR0917  as above
+    seeds: Seeds = None,
+    first_seed: FirstSeed = None,
+    budget: Budget = None,
+    without: Annotated[
+        str | None, typer.Option(help="ingredients to take away, separated by commas [default: each in turn, and none]")
+    ] = None,
+    tasks: Annotated[str | None, typer.Option(help="tasks, separated by commas [default: stacking]")] = None,
+    adapter: Adapter = None,
+    jobs: Jobs = None,
+    evaluations: Evaluations = None,
+    rollouts: Rollouts = None,
+    out: Out = None,
+    resume: Resume = False,
+    data_dir: DataDir = None,
+    as_json: AsJson = False,
+) -> None:
+    """What each ingredient of the preset `recommended` is worth: success over feedbacks without it."""
+    given = {
+        "seeds": seeds,
+        "first_seed": first_seed,
+        "budget": budget,
+        "without": without,
+        "tasks": tasks,
+        "adapter": adapter,
+        "evaluations": evaluations,
+        "rollouts": rollouts,
+    }
+
+    def plan() -> Plan:
+        contestants = named("ingredient", without, ablated(), option="--without")
+        return plan_of("ablation", [(each, contestants) for each in named("task", tasks or "stacking", CLICKS)], given)
+
+    _run("ablation", plan, given, Place(out, data_dir, jobs, resume), as_json=as_json)
+
+
+@app.command()
+def composition(  # noqa: PLR0917  as above
+    seeds: ClaimSeeds = 5,
+    first_seed: ClaimFirst = FIRST_SEED,
+    rollouts: ClaimRollouts = 100,
+    jobs: Jobs = None,
+    out: Out = None,
+    data_dir: DataDir = None,
+    as_json: AsJson = False,
+) -> None:
+    """Zero-shot reward composition: critics of subgoals in scenes and orders they were never trained in."""
+    _claim("composition", range(first_seed, first_seed + seeds), rollouts, Place(out, data_dir, jobs, False), as_json)
+
+
+@app.command()
+def imitation(  # noqa: PLR0917  as above
+    seeds: ClaimSeeds = 5,
+    first_seed: ClaimFirst = FIRST_SEED,
+    rollouts: ClaimRollouts = 100,
+    jobs: Jobs = None,
+    out: Out = None,
+    data_dir: DataDir = None,
+    as_json: AsJson = False,
+) -> None:
+    """Imitation: behaviour cloning from clean, bad and mixed demonstrations, beside SEED with as many labels."""
+    _claim("imitation", range(first_seed, first_seed + seeds), rollouts, Place(out, data_dir, jobs, False), as_json)
+
+
+def _claim(name: str, seeds: Sequence[int], rollouts: int, place: Place, as_json: bool) -> None:
+    """Run a study of a claim and tell what came out."""
+    try:
+        told = run_claim(CLAIMS[name], seeds, rollouts, place, _stderr)
+    except (AgentError, AdapterError) as error:
+        _give_up(str(error), error.remedy, FAILED if isinstance(error, ProcessDied | Unavailable) else USAGE)
+    except KeyboardInterrupt:
+        _give_up("interrupted: nothing was written", f"run it again: seed study {name}", INTERRUPTED)
+    table = told.pop("table")
+    typer.echo(json.dumps(told) if as_json else "\n".join(table))
 
 
 def _run(name: str, plan: Callable[[], Plan], given: Mapping[str, Any], place: Place, *, as_json: bool) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeVar
 
+from agent.ablation import ABLATIONS
 from agent.study.algorithms import CONTESTANTS, ORACLE
 from agent.study.plan import Contestant, Plan, Protocol, Scenario, StudyError, planned
 from robot_adapters import registry
@@ -13,8 +14,19 @@ SEEDS, FIRST_SEED, ADAPTER = 5, 10, "robosuite"
 T = TypeVar("T")
 
 
-def named(kind: str, asked: str | None, known: Mapping[str, T]) -> list[T]:
-    """Those that are asked for, `a,b`, in that order; None: all.
+def ablated() -> dict[str, Contestant]:
+    """Ingredient -> SEED by the recommended preset without it."""
+    recommended = CONTESTANTS["seed-recommended"]
+    return {
+        name: recommended.model_copy(
+            update={"name": name, "title": ablation.title, "settings": {**recommended.settings, **ablation.settings}}
+        )
+        for name, ablation in ABLATIONS.items()
+    }
+
+
+def named(kind: str, asked: str | None, known: Mapping[str, T], option: str = "") -> list[T]:
+    """Those that are asked for by an option, `a,b`, in that order; None: all.
 
     Raises:
         StudyError: one isn't known, or none is named.
@@ -25,7 +37,7 @@ def named(kind: str, asked: str | None, known: Mapping[str, T]) -> list[T]:
     unknown = [name for name in names if name not in known]
     if unknown or not names:
         raise StudyError(
-            f"--{kind}s: there is no {kind} {', '.join(map(repr, unknown)) or repr(asked)}",
+            f"{option or f'--{kind}s'}: there is no {kind} {', '.join(map(repr, unknown)) or repr(asked)}",
             remedy=f"use one or more of: {', '.join(known)}; separated by commas",
         )
     return [known[name] for name in names]
@@ -70,7 +82,7 @@ def plan_of(name: str, entries: Sequence[tuple[Scenario, Sequence[Contestant]]],
         adapter,
         entries,
         seeds=range(first, first + (given["seeds"] or SEEDS)),
-        budgets=_budgets(given["budget"] or [], [scenario.name for scenario, _ in entries]),
+        budgets=_budgets(given["budget"] or [], [scenario for scenario, _ in entries]),
         protocol=Protocol(
             evaluations=given["evaluations"] or standard.evaluations, rollouts=given["rollouts"] or standard.rollouts
         ),
@@ -78,7 +90,7 @@ def plan_of(name: str, entries: Sequence[tuple[Scenario, Sequence[Contestant]]],
     )
 
 
-def _budgets(asked: Sequence[str], scenarios: Sequence[str]) -> dict[str, int]:
+def _budgets(asked: Sequence[str], scenarios: Sequence[Scenario]) -> dict[str, int]:
     """Scenario -> budget from `N` for all and `task=N` for one; a named one wins.
 
     Raises:
@@ -86,18 +98,19 @@ def _budgets(asked: Sequence[str], scenarios: Sequence[str]) -> dict[str, int]:
     """
     general: dict[str, int] = {}
     special: dict[str, int] = {}
+    known = {scenario.name.removesuffix("-clicks"): scenario.name for scenario in scenarios}
     for each in asked:
         task, equals, number = each.rpartition("=")
         if not number.isdecimal() or int(number) < 1:
             raise StudyError(
                 f"--budget: {each!r} is no budget", remedy="write a whole number of 1 or more, or e.g. reaching=20000"
             )
-        if equals and task not in scenarios:
+        if equals and task not in known:
             raise StudyError(
-                f"--budget: {task!r} is none of the tasks studied", remedy=f"use one of: {', '.join(scenarios)}"
+                f"--budget: {task!r} is none of the tasks studied", remedy=f"use one of: {', '.join(known)}"
             )
         if equals:
-            special[task] = int(number)
+            special[known[task]] = int(number)
         else:
-            general = dict.fromkeys(scenarios, int(number))
+            general = dict.fromkeys(known.values(), int(number))
     return general | special

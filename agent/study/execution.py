@@ -78,7 +78,12 @@ def _begin(stop: Event) -> None:
     """In each process: hear the parent's word only, and end with it."""
     global _stop  # noqa: PLW0603  a pool's processes get their surroundings so
     _stop = stop
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches the whole group; the parent tells what follows
+    follow_parent()
+
+
+def follow_parent() -> None:
+    """In a child process: leave Ctrl-C, which reaches the whole group, to the parent, and end when it is gone."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
 

@@ -24,6 +24,8 @@ OF_ALGORITHM = {"seed": 0, "seed-recommended": 3, "tamer": 2, "maple-aff": 1, "m
 """The same algorithm has the same colour in every figure."""
 MARKERS = "osD^vPX*"
 LABEL = {Measure.SUCCESS_RATE: "success rate", Measure.SUCCESSES: "successes while training"}
+CROWD = 8
+"""More curves than this have their legend beside the figure."""
 FAR = 4.0
 """How many times further than another a curve may go before the axis is logarithmic."""
 
@@ -107,8 +109,13 @@ def _draw(panel: Axes, folder: Folder, plan: Plan, scenario: Scenario, axis: Axi
     else:
         panel.set_ylim(bottom=min(-0.5, -0.03 * panel.get_ylim()[1]))
     panel.grid(color="#dddddd", lw=0.6)
-    if ours:
+    if len(ours) > CROWD:
+        panel.legend(frameon=False, fontsize=8, loc="upper left", bbox_to_anchor=(1.01, 1.0))
+    elif ours:
         panel.legend(frameon=False, fontsize=8, loc="best")
+    hidden = [each.title for each in plan.contestants if each.name in ours and not ours[each.name].x.any()]
+    if hidden:
+        panel.set_title(f"at 0, a seed having executed nothing: {', '.join(hidden)}", fontsize=8, color="#444444")
     return bool(ours)
 
 
@@ -118,7 +125,8 @@ def _draw_ours(panel: Axes, plan: Plan, contestant: Contestant, curve: Curve, *,
         return
     x, told = curve.x[shown], summaries(curve.values[:, shown])
     index = _index(plan, contestant.name)
-    colour, marker = COLOURS[index % len(COLOURS)], MARKERS[index % len(MARKERS)]
+    colour = COLOURS[index % len(COLOURS)]
+    marker = MARKERS[(index + index // len(COLOURS)) % len(MARKERS)]  # no two have both in common
     label = f"{contestant.title} (n = {curve.seeds})"
     middle, every = [t.iqm for t in told], max(1, len(x) // 8)
     marked = (index % every, every)  # where curves lie on each other their markers don't

@@ -43,14 +43,14 @@ class Frozen(BaseModel):
 
 
 class Scenario(Frozen):
-    """A task as one figure of the paper looks at it. paper_budget: where the figure's axis ends."""
+    """A task as one figure looks at it. usual_budget: where the axis of the paper's figure ends, if it has one."""
 
     name: str
     title: str
     task: str
     axis: Axis
     measure: Measure
-    paper_budget: int
+    usual_budget: int
     algorithms: tuple[str, ...]
     """Who competes unless told otherwise."""
     first_subgoal: bool = False
@@ -80,7 +80,7 @@ SCENARIOS: Mapping[str, Scenario] = {
             task="reaching",
             axis=Axis.LOW_LEVEL_STEPS,
             measure=Measure.SUCCESS_RATE,
-            paper_budget=300_000,
+            usual_budget=300_000,
             algorithms=SIMULATED,
         ),
         Scenario(
@@ -89,7 +89,7 @@ SCENARIOS: Mapping[str, Scenario] = {
             task="stacking",
             axis=Axis.LOW_LEVEL_STEPS,
             measure=Measure.SUCCESS_RATE,
-            paper_budget=1_000_000,
+            usual_budget=1_000_000,
             algorithms=SIMULATED,
         ),
         *(
@@ -99,7 +99,7 @@ SCENARIOS: Mapping[str, Scenario] = {
                 task=task,
                 axis=Axis.DECISIONS,
                 measure=Measure.SUCCESSES,
-                paper_budget=budget,
+                usual_budget=budget,
                 algorithms=JUDGED,
             )
             for task, title, budget in (
@@ -114,13 +114,27 @@ SCENARIOS: Mapping[str, Scenario] = {
             task="cooking_hotdog",
             axis=Axis.DECISIONS,
             measure=Measure.SUCCESSES,
-            paper_budget=250,
+            usual_budget=250,
             algorithms=("seed", "seed-recommended", "maple-aff"),
             first_subgoal=True,
         ),
     )
 }
 """The paper's comparisons. Its long tasks ran on a real robot; here they run on the chosen adapter."""
+
+CLICKS: Mapping[str, Scenario] = {
+    scenario.task: Scenario(
+        name=f"{scenario.task}-clicks",
+        title=scenario.title,
+        task=scenario.task,
+        axis=Axis.DECISIONS,
+        measure=Measure.SUCCESS_RATE,
+        usual_budget=budget,
+        algorithms=("seed-recommended",),
+    )
+    for scenario, budget in zip(list(SCENARIOS.values())[:5], (120, 50, 120, 160, 240), strict=True)
+}
+"""How few feedbacks a task takes, by task. Budgets: twice what the preset `recommended` should need."""
 
 
 class Protocol(Frozen):
@@ -191,7 +205,7 @@ def planned(
 ) -> Plan:
     """The runs of a study, seed by seed: what is interrupted has something of everything.
 
-    budgets: scenario -> budget; the paper's where it is silent. oracle: the learner that judges low-level actions; it
+    budgets: scenario -> budget; the usual one where it is silent. oracle: the learner that judges low-level actions; it
     is trained first, from the first seed, on the same task with the same budget.
 
     Raises:
@@ -199,7 +213,7 @@ def planned(
     """
     runs: list[Run] = []
     for scenario, contestants in entries:
-        budget = budgets.get(scenario.name, scenario.paper_budget)
+        budget = budgets.get(scenario.name, scenario.usual_budget)
         if budget < 1:
             raise StudyError(f"the budget of {scenario.name} is {budget}", remedy="give a budget of 1 or more")
         judge = _run(oracle, scenario, seeds[0], budget).model_copy(update={"shown": False})

@@ -16,6 +16,8 @@ from agent.study.statistics import CONFIDENCE, Summary, summary
 
 UNIT = {Axis.LOW_LEVEL_STEPS: "low-level steps", Axis.DECISIONS: "decisions"}
 """A decision is a feedback where a trainer judges."""
+REACHED = 0.9
+"""Success rate of one evaluation that counts as learned, though with few rollouts luck has a part in it."""
 
 
 @dataclass(frozen=True)
@@ -33,6 +35,8 @@ class Outcome:
     successes: Summary
     violations: int
     decisions: int
+    needed: tuple[int, ...]
+    """Decisions before the first evaluation with `REACHED` success, of those seeds that got there."""
 
     @property
     def violation_ratio(self) -> float | None:
@@ -46,9 +50,11 @@ def outcomes(folder: Folder, plan: Plan) -> list[Outcome]:
     for scenario in plan.scenarios:
         for contestant in plan.contestants:
             runs = plan.of(scenario.name, contestant.name)
-            last = [rows[-1] for run in runs if (rows := folder.rows(run.id))]
-            if not last:
+            measured = [rows for run in runs if (rows := folder.rows(run.id))]
+            if not measured:
                 continue
+            last = [rows[-1] for rows in measured]
+            needed = [next((row.decisions for row in rows if row.success_rate >= REACHED), None) for rows in measured]
             finished = sum(folder.progress(run.id, live=False).state == "finished" for run in runs)
             found.append(
                 Outcome(
@@ -62,6 +68,7 @@ def outcomes(folder: Folder, plan: Plan) -> list[Outcome]:
                     _summary(last, Measure.SUCCESSES),
                     sum(row.violations for row in last),
                     sum(row.decisions for row in last),
+                    tuple(count for count in needed if count is not None),
                 )
             )
     return found
@@ -79,7 +86,8 @@ def budget_note(plan: Plan, scenario: Scenario) -> str:
     """In words: the budget, the paper's where it is another, seeds, adapter and evaluation."""
     budget = next(run.budget for run in plan.runs if run.scenario.name == scenario.name and run.shown)
     unit = UNIT[scenario.axis]
-    papers = f" (the paper's figure goes to {scenario.paper_budget:,})" if budget != scenario.paper_budget else ""
+    differs = paper.curves(scenario.name) and budget != scenario.usual_budget
+    papers = f" (the paper's figure goes to {scenario.usual_budget:,})" if differs else ""
     protocol = plan.protocol
     return (
         f"Budget {budget:,} {unit} a run{papers}; {len(plan.seeds)} seed{'s' if len(plan.seeds) > 1 else ''}; "
@@ -117,8 +125,8 @@ def _tables(plan: Plan, found: Sequence[Outcome]) -> str:
         interval = f"interquartile mean [{CONFIDENCE:.0%} bootstrap]"
         lines += [
             f"| algorithm | seeds | {UNIT[scenario.axis]} | success rate, mean ± SEM | {interval} | successes in "
-            f"training, mean ± SEM | {interval} | the paper's last value |",
-            "|---|---|---|---|---|---|---|---|",
+            f"training, mean ± SEM | {interval} | decisions to {REACHED:.0%} | the paper's last value |",
+            "|---|---|---|---|---|---|---|---|---|",
         ]
         lines += [_line(each) for each in about] + [""]
     lines += [
@@ -147,9 +155,18 @@ def _line(each: Outcome) -> str:
         f"{each.reached:,.0f}",
         *_told(each.success_rate, "{:.2f}"),
         *_told(each.successes, "{:.1f}"),
+        _needed(each),
         ", ".join(last) or "-",
     ]
     return f"| {' | '.join(cells)} |"
+
+
+def _needed(each: Outcome) -> str:
+    """Mean over the seeds that got there, and how many did not."""
+    if not each.needed:
+        return "not reached"
+    missing = each.success_rate.n - len(each.needed)
+    return f"{np.mean(each.needed):.0f}" + (f", {missing} of {each.success_rate.n} seeds not" if missing else "")
 
 
 def _told(of: Summary, form: str) -> tuple[str, str]:

@@ -8,6 +8,8 @@ from agent.study.algorithms import Builders
 from agent.study.low_level import Env
 from robot_adapters import low_level, registry
 from robot_adapters.base import Adapter
+from robot_adapters.kinematic import KinematicSettings
+from robot_adapters.tasks.base import Task
 
 
 def builders(adapter: str) -> Builders:
@@ -18,6 +20,13 @@ def builders(adapter: str) -> Builders:
     """
     registry.adapter(adapter)
     return Builders(registry.task, partial(_robot, adapter), partial(_environment, adapter))
+
+
+def any_task(task: Task) -> Adapter:
+    """A kinematic robot with a task that may have no name: a scene made for one study."""
+    from robot_adapters.kinematic.adapter import KinematicAdapter  # noqa: PLC0415  as its factory does
+
+    return KinematicAdapter(task, KinematicSettings(draw=False))
 
 
 def _robot(adapter: str, task: str) -> Adapter:

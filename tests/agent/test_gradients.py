@@ -108,7 +108,7 @@ def test_weighted_labels() -> None:
     check("stacking", grounded=False, hidden=32, critics=2, count=2, batch=16, weighted=True)
 
 
-@pytest.mark.parametrize("batch", [kernels.ROWS, 2 * kernels.ROWS + 40])
+@pytest.mark.parametrize("batch", [256, 552])
 def test_large_networks(batch: int) -> None:
     """The paper's sizes, where the processor lets each network go alone, in several parts."""
     check("sweeping", grounded=True, hidden=256, critics=2, count=1, batch=batch, weighted=False)

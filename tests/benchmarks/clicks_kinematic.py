@@ -1,141 +1,104 @@
-"""Feedback that SEED's presets need until 90 of 100 deterministic rollouts succeed, without physics.
+"""Feedbacks that SEED's presets need until 90 of 100 deterministic rollouts succeed, without physics.
 
-Learner, kinematic adapter and the task's own judge in one process. `recommended` on all five tasks, three seeds each,
-looked at every five labels; `paper_sim` on two, every fifty, with fewer rollouts. A seed stops at its budget; one that
-did not get there counts as the budget, and is told as "not within". The figure is `recommended` on Stacking, its bar is
-25. `BENCH_FEEDBACK` sets the budget of `paper_sim` (default 500), `BENCH_SEEDS` the seeds of `recommended`.
+    python -m tests.benchmarks.clicks_kinematic --tasks stacking sweeping --teachers right wrong_10 --seeds 10
+
+prints a line for each teacher and task as soon as it is measured: mean ± standard error of the mean, each seed (never:
+not within the budget, which then counts), and of the policies that got there how many of 100 episodes they solve from
+layouts of twice the training range, without new feedback. Part of `python -m tests.benchmarks` is `recommended`
+with a teacher that is right, three seeds a task, and `paper_sim` on two tasks, looked at every fifty labels with fewer
+rollouts; the figure is `recommended` on Stacking. `BENCH_FEEDBACK` sets the budget of `paper_sim` (default 500),
+`BENCH_SEEDS` the seeds of `recommended`.
 """
 
 from __future__ import annotations
 
+import argparse
 import os
-import statistics
 import time
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Any
 
-import torch
-
-from agent.algorithm import Algorithm, Label, Problem
-from agent.config import SEED, SeedSettings
 from robot_adapters import registry
-from robot_adapters.base import Adapter, SkillCall, SkillResult
-from robot_adapters.tasks.base import Task, position_fields, state_bounds
+from tests.benchmarks import _clicks as clicks
 from tests.benchmarks.result import Result
 
-REACHED = 0.9
-FIRST_SEED = 10
-"""The preset's constants were chosen on seeds 0 to 7; these it has not seen."""
-
-
-@dataclass(frozen=True)
-class Row:
-    """One task under one preset. bar: mean feedback that it may need; every: feedback between two evaluations.
-
-    settings: those that differ from the preset.
-    """
-
-    preset: str
-    task: str
-    budget: int
-    bar: float | None
-    seeds: int
-    every: int
-    rollouts: int
-    settings: Mapping[str, Any] = field(default_factory=dict)
-
-
 BARS = {"stacking": 25, "reaching": 60, "sweeping": 60, "collecting_toy": 80, "cooking_hotdog": 120}
+TEACHERS = {
+    "right": clicks.right,
+    "wrong_10": clicks.wrong(0.1),
+    "wrong_20": clicks.wrong(0.2),
+    "one_in_three": clicks.seldom(1 / 3, None),
+    "two_in_three_neutral": clicks.seldom(1 / 3, 0),
+}
+BUDGET = {"right": 2, "wrong_10": 3, "wrong_20": 4, "one_in_three": 2, "two_in_three_neutral": 2}
+"""Times the bar: answers after which a seed is given up."""
 
 
 def run() -> Result:
     """A row for each task and preset; the value is the mean of `recommended` on Stacking."""
     paper = int(os.environ.get("BENCH_FEEDBACK", "500"))
-    seeds = int(os.environ.get("BENCH_SEEDS", "3"))
-    rows = [Row("recommended", task, 2 * bar, bar, seeds, 5, 100) for task, bar in BARS.items()]
-    rows += [Row("paper_sim", task, paper, None, 5, 50, 20) for task in ("reaching", "stacking") if paper]
-    threads = torch.get_num_threads()
-    torch.set_num_threads(1)
-    try:
-        told = [_told(row) for row in rows]
-    finally:
-        torch.set_num_threads(threads)
-    means = {(row.preset, row.task): mean for row, (mean, _) in zip(rows, told, strict=True)}
-    value = means["recommended", "stacking"]
+    seeds = clicks.seeds(3)
+    lines, means = [], {}
+    for task, bar in BARS.items():
+        start = time.perf_counter()
+        told = _told(clicks.Setup(task, 2 * bar), seeds)
+        means[task] = told.mean
+        lines.append(f"recommended {task}: {told.text()}, bar {bar}; {time.perf_counter() - start:.0f} s")
+    baseline = None
+    for task in ("reaching", "stacking") if paper else ():
+        setup = clicks.Setup(task, paper, preset="paper_sim", rollouts=20, every=50)
+        told = _told(setup, range(clicks.FIRST_SEED, clicks.FIRST_SEED + 5))
+        baseline = told.mean
+        lines.append(f"paper_sim {task}: {told.text()}")
     return Result(
         "clicks_kinematic",
-        value,
-        f"feedback to {REACHED:.0%} (recommended on Stacking, mean of {seeds} seeds)",
-        baseline=means.get(("paper_sim", "stacking")),
+        means["stacking"],
+        f"feedback to {clicks.REACHED:.0%} (recommended on Stacking, mean of {len(seeds)} seeds)",
+        baseline=baseline,
         bar=BARS["stacking"],
-        ok=all(means["recommended", task] <= bar for task, bar in BARS.items()),
-        lines=tuple(line for _, line in told),
+        ok=all(means[task] <= bar for task, bar in BARS.items()),
+        lines=tuple(lines),
     )
 
 
-def _told(row: Row) -> tuple[float, str]:
-    """Mean feedback of a row's seeds, and the line that tells it."""
+def _told(setup: clicks.Setup, seeds: range) -> clicks.Told:
+    return clicks.summary([clicks.train(setup, seed).needed for seed in seeds], setup.budget)
+
+
+def row(task: str, teacher: str, seeds: range) -> str:
+    """One line of the table."""
     start = time.perf_counter()
-    needed = [feedback_needed(row, seed) for seed in range(FIRST_SEED, FIRST_SEED + row.seeds)]
-    counted = [row.budget if n is None else n for n in needed]
-    mean = statistics.fmean(counted)
-    sem = statistics.stdev(counted) / len(counted) ** 0.5 if len(counted) > 1 else 0.0
-    each = ", ".join(f"not within {row.budget}" if n is None else str(n) for n in needed)
-    least = "at least " if None in needed else ""
-    bar = "" if row.bar is None else f", bar {row.bar:g}"
+    setup = clicks.Setup(task, BUDGET[teacher] * BARS[task], judge=TEACHERS[teacher])
+    wide = clicks.robot(task, layout=doubled(task))
+    outcomes = [clicks.train(setup, seed) for seed in seeds]
+    there = [o for o in outcomes if o.needed is not None]
+    solved = [clicks.successes(o.learner, o.task, wide, 100) for o in there]
+    wide.close()
+    told = clicks.summary([o.needed for o in outcomes], setup.budget)
+    proposals = sum(o.proposals for o in outcomes) / len(outcomes)
     seconds = time.perf_counter() - start
-    return mean, f"{row.preset} {row.task}: {least}{mean:.0f} ± {sem:.0f}{bar} ({each}; {seconds:.0f} s)"
+    return (
+        f"{teacher:22}{task:16}{told.text()}; {proposals:.0f} proposals; on twice the layout {solved} of 100; "
+        f"{seconds:.0f} s"
+    )
 
 
-def feedback_needed(row: Row, seed: int) -> int | None:
-    """Labels until 90 % of the rollouts succeed; None where the budget ran out before."""
-    task = registry.task(row.task)
-    low, high = state_bounds(task.state_fields)
-    fields = position_fields(task.state_fields)
-    problem = Problem(task.name, low, high, task.skills, keypoints=task.keypoints, position_fields=fields)
-    learner = SEED(problem, SeedSettings(**{**SEED.presets[row.preset], **row.settings}), seed)
-    robot, judged_on = _kinematic(row.task), _kinematic(row.task)
-    try:
-        state, executed = robot.reset(seed).state, 0
-        for label_id in range(1, row.budget + 1):
-            call = learner.propose(state).call
-            value = task.judge(state, call)
-            learner.add([Label(label_id, state, call, value)])
-            while learner.owed_updates:
-                learner.update()
-            if value == 1:
-                result, executed = _execute(robot, call), executed + 1
-                over = result.success or result.violations or executed == task.horizon
-                state, executed = (robot.reset().state, 0) if over else (robot.observe().state, executed)
-            if label_id % row.every == 0 and _succeeds(learner, task, judged_on, row.rollouts):
-                return label_id
-        return None
-    finally:
-        robot.close()
-        judged_on.close()
+def doubled(task: str) -> dict[str, tuple[float, float]]:
+    """The ranges of a task's start layout, each twice as wide around its middle."""
+    found = registry.task(task).layout.model_dump()
+    return {name: ((3 * low - high) / 2, (3 * high - low) / 2) for name, (low, high) in found.items()}
 
 
-def _succeeds(learner: Algorithm, task: Task, robot: Adapter, rollouts: int) -> bool:
-    """Whether 90 % of so many deterministic rollouts from fixed starts solve the task within its horizon."""
-    failed = 0
-    for start in range(rollouts):
-        state = robot.reset(10_000 + start).state
-        for _ in range(task.horizon):
-            result = _execute(robot, learner.propose(state, deterministic=True).call)
-            if result.success or result.violations:
-                break
-            state = robot.observe().state
-        failed += not robot.success()
-        if failed > rollouts * (1 - REACHED) + 1e-9:
-            return False
-    return True
+def main() -> None:
+    """Parse the command line, and print each row as soon as it is measured."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--tasks", nargs="+", choices=clicks.TASKS, default=list(clicks.TASKS))
+    parser.add_argument("--teachers", nargs="+", choices=list(TEACHERS), default=["right"])
+    parser.add_argument("--seeds", type=int, default=10, help="how many, from 10 on")
+    arguments = parser.parse_args()
+    seeds = range(clicks.FIRST_SEED, clicks.FIRST_SEED + arguments.seeds)
+    for teacher in arguments.teachers:
+        for task in arguments.tasks:
+            print(row(task, teacher, seeds), flush=True)
 
 
-def _kinematic(task_name: str) -> Adapter:
-    factory = registry.adapter("kinematic")
-    return factory(task_name, factory.settings.model_validate({"draw": False}))
-
-
-def _execute(robot: Adapter, call: SkillCall) -> SkillResult:
-    return robot.execute(call, should_stop=lambda: False, on_step=lambda: None)
+if __name__ == "__main__":
+    main()

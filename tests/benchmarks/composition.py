@@ -1,6 +1,6 @@
 """Reward composition, zero-shot, without physics: what critics of subgoals do in scenes and orders never trained.
 
-`BENCH_SEEDS` is how many seeds, from 10 on (default 2; the table of docs/claims.md has 5).
+`BENCH_SEEDS` is how many seeds, from 10 on (default 1; the table of docs/claims.md says how many it has).
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from tests.benchmarks.result import Result
 
 FIRST_SEED = 10
 """Settings were looked at on seeds below."""
+ROLLOUTS = 50
 
 
 def kinematic(task: Task) -> Adapter:
@@ -28,13 +29,13 @@ def kinematic(task: Task) -> Adapter:
 
 def run() -> Result:
     """The value is the mean success of the composed critics over all scenes; the baseline that of undivided ones."""
-    seeds = range(FIRST_SEED, FIRST_SEED + int(os.environ.get("BENCH_SEEDS", "2")))
+    seeds = range(FIRST_SEED, FIRST_SEED + int(os.environ.get("BENCH_SEEDS", "1")))
     torch.set_num_threads(1)
-    outcomes = composition.run(kinematic, seeds)
+    outcomes = composition.run(kinematic, seeds, rollouts=ROLLOUTS)
     return Result(
         "composition",
         statistics.fmean(o.composed for o in outcomes),
-        f"share of rollouts solved with no feedback in the new scene ({len(seeds)} seeds, 100 rollouts each)",
+        f"share of rollouts solved with no feedback in the new scene ({len(seeds)} seeds, {ROLLOUTS} rollouts each)",
         baseline=statistics.fmean(o.rebound for o in outcomes),
         lines=(*composition.table_of(outcomes), *map(str, outcomes)),
     )

@@ -15,7 +15,8 @@ from collections.abc import Sequence
 
 import torch
 
-from tests.benchmarks.clicks_kinematic import BARS, FIRST_SEED, Row, feedback_needed
+from tests.benchmarks._clicks import FIRST_SEED, Setup, train
+from tests.benchmarks.clicks_kinematic import BARS
 from tests.benchmarks.result import Result
 
 CRITICS = (2, 5)
@@ -30,7 +31,7 @@ def run() -> Result:
     torch.set_num_threads(1)
     try:
         needed = {
-            (task, critics, way): [feedback_needed(_row(task, critics, way), seed) for seed in seeds]
+            (task, critics, way): [train(_setup(task, critics, way), seed).needed for seed in seeds]
             for task in tasks
             for critics in CRITICS
             for way in WAYS
@@ -47,9 +48,8 @@ def run() -> Result:
     )
 
 
-def _row(task: str, critics: int, way: str) -> Row:
-    settings = {"critics": critics, "explore": way}
-    return Row("recommended", task, 2 * BARS[task], None, 1, 5, 100, settings)
+def _setup(task: str, critics: int, way: str) -> Setup:
+    return Setup(task, 2 * BARS[task], settings={"critics": critics, "explore": way})
 
 
 def _counted(task: str, needed: Sequence[int | None]) -> list[int]:

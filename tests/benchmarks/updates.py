@@ -256,8 +256,8 @@ def _quickest(net: _Net) -> Callable[[], object]:
     """By oneDNN where SEED uses it, in the same pieces; narrow products transposed, as SEED does."""
     asked: list[Callable[[], object]] = []
     for _ in range(net.count):
-        pieces = [(kernels.ROWS, True)] * (net.learnt // kernels.ROWS)
-        pieces += [(kernels.ROWS, False)] * ((net.rows - net.learnt) // kernels.ROWS)
+        most = kernels.ACTIVATIONS // HIDDEN
+        pieces = [(most, True)] * (net.learnt // most) + [(most, False)] * ((net.rows - net.learnt) // most)
         for rows, learnt in pieces:
             for depth, (i, o) in enumerate(pairwise(net.sizes)):
                 x, weight, gradient = torch.randn(rows, i), torch.randn(i, o), torch.randn(rows, o)

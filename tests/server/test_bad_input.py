@@ -52,7 +52,7 @@ async def test_a_checkpoint_of_another_task_is_told_and_the_labels_rebuild_the_l
         await s.hub.act(experiment.id, "start", until=2)
         await s.hub.idle(experiment.id)
         [path] = sorted((tmp_path / "checkpoints" / str(experiment.id)).iterdir())
-        SEED(of_task("reaching"), SeedSettings(**SMALL), 0).save(path)
+        SEED(of_task("reaching"), SeedSettings.model_validate(SMALL), 0).save(path)
     async with stage(tmp_path) as s:
         await s.hub.act(experiment.id, "resume", until=4)
         await s.hub.idle(experiment.id)

@@ -112,6 +112,19 @@ def test_what_is_wrong_is_named(tmp_path: Path, options: tuple[str, ...], words:
     assert not list(tmp_path.glob("study/*.json"))
 
 
+def test_an_ablation_takes_one_ingredient_away_at_a_time(tmp_path: Path) -> None:
+    out = tmp_path / "study"
+    options = ["--adapter", "kinematic", "--seeds", 1, "--budget", 2, "--evaluations", 1, "--rollouts", 1]
+    wrong(["study", "ablation", "--without", "luck", *options, "--out", out], "--without", "luck", "recall")
+    done = seed("study", "ablation", "--without", "nothing,recall", *options, "--jobs", 1, "--out", out, "--json")
+    assert done.returncode == 0, done.stderr
+    told = json.loads(done.stdout.splitlines()[-1])
+    assert [each["algorithm"] for each in told["results"]] == ["nothing", "recall"]
+    settings = [run.contestant.settings for run in Folder(out).plan().runs]
+    assert {name for name in settings[0] if settings[0][name] != settings[1].get(name)} == {"recall"}
+    assert "the paper's figure" not in (out / "table.md").read_text("utf-8")
+
+
 def test_folders_of_something_else_are_left_alone(tmp_path: Path) -> None:
     thesis = tmp_path / "thesis" / "chapter.tex"
     thesis.parent.mkdir()
@@ -127,5 +140,5 @@ def test_folders_of_something_else_are_left_alone(tmp_path: Path) -> None:
 def test_the_list_names_every_task_and_algorithm() -> None:
     told = CliRunner().invoke(app, ["study", "list"])
     assert told.exit_code == 0
-    for word in ("paper-sim", "reaching", "cooking_hotdog", "first_subgoal", "seed-recommended", "tamer"):
+    for word in ("paper-sim", "first_subgoal", "seed-recommended", "ablation", "grounded_actor", "composition"):
         assert word in told.stdout

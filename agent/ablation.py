@@ -1,0 +1,99 @@
+"""What the preset `recommended` is made of, one ingredient at a time: the settings that take each away.
+
+Pure data for studies, benchmarks and the documentation; imports no torch.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Ablation:
+    """One ingredient taken away. settings: those of `SeedSettings` that differ from the preset `recommended`."""
+
+    title: str
+    sentence: str
+    settings: Mapping[str, Any] = field(default_factory=dict)
+
+
+def _without(title: str, sentence: str, **settings: Any) -> Ablation:
+    return Ablation(title, sentence, MappingProxyType(settings))
+
+
+ABLATIONS: Mapping[str, Ablation] = MappingProxyType(
+    {
+        "nothing": _without("recommended", "The preset as it is."),
+        "augmentation": _without(
+            "no augmentation",
+            "Stored labels are learned from where they were given, not moved, mirrored or turned.",
+            augment_translation=0.0,
+            augment_flip=False,
+            augment_rotation=False,
+        ),
+        "relative_critic": _without(
+            "absolute critic",
+            "The critic reads parameters in the robot's frame only, not relative to the skill's key points.",
+            relative_critic=False,
+        ),
+        "grounded_actor": _without(
+            "ungrounded actor",
+            "The actor puts out a position in the workspace instead of a key point and an offset from it.",
+            grounded_actor=False,
+        ),
+        "skill_keypoints": _without(
+            "key points shared",
+            "Every skill sees all key points of the task instead of its own.",
+            keypoints="all",
+        ),
+        "keypoints": _without("no key points", "The networks are told of no places that matter.", keypoints="none"),
+        "candidates": _without(
+            "no candidates",
+            "A proposal is drawn from the actors; the critic ranks nothing, so neither good calls come back nor "
+            "refused ones stay away.",
+            candidates=0,
+        ),
+        "optimism": _without(
+            "no optimism",
+            "A skill that never was called good gets no head start among the candidates.",
+            explore_optimism=0.0,
+        ),
+        "elimination": _without(
+            "random search",
+            "Where no key point leads to a good position, candidates are random instead of where most is left to "
+            "rule out.",
+            explore_elimination=False,
+        ),
+        "avoid_refused": _without(
+            "refused spots stay",
+            "What was refused in this very situation may be proposed again.",
+            avoid_refused=False,
+        ),
+        "recall": _without("no recall", "Calls that were good before are not candidates again.", recall=0),
+        "balanced_replay": _without(
+            "unbalanced replay",
+            "Batches hold as many good labels as there happen to be, not half.",
+            balanced_replay=False,
+        ),
+        "twin_critic": _without("one critic", "A single critic instead of the lower of two.", critics=1),
+        "gradient_steps": _without(
+            "5 steps a label", "As few gradient steps as in the paper, not 20.", gradient_steps=5
+        ),
+        "temperature": _without(
+            "temperature from 1",
+            "Both entropy temperatures start where MAPLE's do.",
+            initial_temperature=1.0,
+        ),
+        "learning_rate": _without("learning rate 3e-3", "The paper's step size, not 1e-3.", learning_rate=3e-3),
+        "wide_networks": _without(
+            "256 units, batch 256",
+            "The paper's layer and batch sizes, not 64 and 128.",
+            hidden_size=256,
+            batch_size=256,
+        ),
+    }
+)
+"""Ingredient -> what `recommended` is without it; `nothing` is the reference row."""

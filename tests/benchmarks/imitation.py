@@ -1,0 +1,32 @@
+"""Cloning demonstrated skill calls against SEED with as many labels, without physics.
+
+`BENCH_SEEDS` is how many seeds, from 10 on (default 1; the table of docs/claims.md says how many it has).
+"""
+
+from __future__ import annotations
+
+import os
+import statistics
+
+import torch
+
+from agent.study import imitation
+from tests.benchmarks.composition import FIRST_SEED, ROLLOUTS, kinematic
+from tests.benchmarks.result import Result
+
+STEPS = 40
+"""Demonstrated steps, or labels: what SEED needs for the longest of these tasks, and a little more."""
+
+
+def run() -> Result:
+    """The value is SEED's mean success over all rows; the baseline that of cloning with key points."""
+    seeds = range(FIRST_SEED, FIRST_SEED + int(os.environ.get("BENCH_SEEDS", "1")))
+    torch.set_num_threads(1)
+    outcomes = imitation.run(kinematic, seeds, steps=STEPS, rollouts=ROLLOUTS)
+    return Result(
+        "imitation",
+        statistics.fmean(o.seed_feedback for o in outcomes),
+        f"share of rollouts solved after {STEPS} labels ({len(seeds)} seeds, {ROLLOUTS} rollouts each)",
+        baseline=statistics.fmean(o.grounded for o in outcomes),
+        lines=(*imitation.table_of(outcomes), *map(str, outcomes)),
+    )
