@@ -6,19 +6,14 @@ import itertools
 from pathlib import Path
 from typing import Any
 
-import pytest
-
-from tests.live import PLUGINS, LiveService, wait_for
+from tests.live import LiveService, wait_for
 from tests.server.serving import EXPERIMENT, event, serving
 from tests.server.test_errors import check_problem
 
 PATIENCE = 90.0
 
 
-async def test_the_number_of_robots_is_chosen_at_creation_for_simulators_only(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.syspath_prepend(str(PLUGINS))
+async def test_the_number_of_robots_is_chosen_at_creation(tmp_path: Path) -> None:
     async with serving(tmp_path) as live:
         one = (await live.http.post("/api/v1/experiments", json=EXPERIMENT)).json()
         assert one["num_envs"] == 1
@@ -32,10 +27,6 @@ async def test_the_number_of_robots_is_chosen_at_creation_for_simulators_only(
                 await live.http.post("/api/v1/experiments", json=EXPERIMENT | {"num_envs": wrong}), 422
             )
             assert [field.field.split(".")[-1] for field in told.fields or []] == ["num_envs"]
-        real = EXPERIMENT | {"adapter": "benchtop", "num_envs": 2}
-        told = check_problem(await live.http.post("/api/v1/experiments", json=real), 422)
-        assert [field.field for field in told.fields or []] == ["num_envs"]
-        assert "leave num_envs at 1" in told.remedy
         async with live.stream(made["id"]) as viewer:
             snapshot = await event(viewer, "snapshot")
         assert (snapshot["proposals"], snapshot["executions"], snapshot["proposal"]) == ([], [], None)
@@ -43,8 +34,15 @@ async def test_the_number_of_robots_is_chosen_at_creation_for_simulators_only(
         check_problem(await live.http.post(f"{address}/reset", params={"robot": 16}), 404)
 
 
-def test_three_robots_are_judged_by_a_client_over_a_crash_of_the_service(own_service: LiveService) -> None:
-    service = own_service
+def test_a_real_robot_is_one(service: LiveService) -> None:
+    real = EXPERIMENT | {"adapter": "benchtop", "num_envs": 2}
+    told = check_problem(service.http.post("/api/v1/experiments", json=real), 422)
+    assert [field.field for field in told.fields or []] == ["num_envs"]
+    assert "leave num_envs at 1" in told.remedy
+    assert service.http.post("/api/v1/experiments", json=real | {"num_envs": 1}).is_success
+
+
+def test_three_robots_are_judged_by_a_client_over_a_crash_of_the_service(service: LiveService) -> None:
     experiment = service.experiment(adapter="kinematic", num_envs=3, adapter_settings={"step_seconds": 0.3})
     path = f"/experiments/{experiment}"
     numbers = itertools.count(1)
