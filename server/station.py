@@ -154,6 +154,8 @@ class Station:
         before: what has to be stored, another robot's motion, before anything of this one is.
         """
         self.enter(Phase.EXECUTING)
+        if self.experiment.num_envs > 1:
+            self._shared.ledger.refresh()  # others are judged meanwhile: their trainer sees the click counted
         done = await self.acting.move(judged, execution, heed=self._latch_after_damage, before=before)
         self._seen = None
         self._executed += 1
