@@ -12,7 +12,7 @@ rows at a time. Which way depends on shapes and processor only, never on a clock
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import torch
@@ -34,6 +34,10 @@ def onednn() -> bool:
     return there and torch.backends.cpu.get_cpu_capability() == "AVX512"
 
 
+def no_pause() -> None:
+    """Go on at once."""
+
+
 @dataclass(frozen=True)
 class Weights:
     """Of C networks, by layer: weights (C, i, o) and biases (C, 1, o)."""
@@ -49,9 +53,12 @@ class Weights:
 class Pass:
     """One pass forward, kept for the way back. ReLU between layers."""
 
-    def __init__(self, x: Tensor, weights: Weights, *, learnt: int) -> None:
-        """x: (C, B, i). The weights learn from the first `learnt` rows; of the others, only inputs get a gradient."""
-        self._weights, self._learnt = weights, learnt
+    def __init__(self, x: Tensor, weights: Weights, *, learnt: int, pause: Callable[[], None] = no_pause) -> None:
+        """x: (C, B, i). The weights learn from the first `learnt` rows; of the others, only inputs get a gradient.
+
+        pause: called every millisecond or so of a large network's work, there and back.
+        """
+        self._weights, self._learnt, self._pause = weights, learnt, pause
         self._size, self._rows = x.shape[:2]
         self._one_by_one = _large(x, weights)
         outputs = weights.weights[-1].shape[-1]
@@ -67,6 +74,7 @@ class Pass:
         for k in range(self._size):
             ours = weights.of(k)
             for rows in self._parts():
+                pause()
                 passed = _alone(x[k, rows], ours)
                 self.output[k, rows] = passed.pop()
                 self._passed.append(passed)
@@ -84,6 +92,7 @@ class Pass:
         for k in range(self._size):
             ours, gradients = self._weights.of(k), into.of(k)
             for rows in self._parts():
+                self._pause()
                 part = gradient[k, rows]
                 if rows.start < self._learnt:
                     _alone_back(next(passed), ours, part, gradients, add=rows.start > 0)

@@ -8,7 +8,7 @@ bootstrapping: the target of the critic is the label, so no discount and no targ
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +22,7 @@ from agent.candidates import Chooser, search_of
 from agent.config import SeedSettings
 from agent.encoding import Encoder
 from agent.grounding import grounding
+from agent.kernels import no_pause
 from agent.networks import Layout, Networks
 from agent.proposing import Choice, choose
 from agent.replay import Batch, Replay
@@ -77,6 +78,7 @@ class Seed:
         self._labels_seen = 0
         self._owed = 0
         self._spare = 0
+        self.pause: Callable[[], None] = no_pause
         self.policy_version = 0
         self.last_label_id = 0
 
@@ -153,7 +155,7 @@ class Seed:
             return None
         if len(self._trainer.arena.learners) > 1:  # trained together with others until now
             self.settle(Trainer.joined([self.seat]), 0)
-        (metrics,) = self._trainer.step([self.draw()])
+        (metrics,) = self._trainer.step([self.draw()], self.pause)
         self.stepped()
         return metrics
 
