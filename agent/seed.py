@@ -20,6 +20,7 @@ from agent.algorithm import CheckpointError, Label, Problem, Suggestion
 from agent.arena import ADAM_STATE
 from agent.candidates import Chooser, search_of
 from agent.config import SeedSettings
+from agent.consensus import Consensus
 from agent.encoding import Encoder
 from agent.grounding import grounding
 from agent.kernels import no_pause
@@ -68,8 +69,15 @@ class Seed:
             parameter_entropy=settings.parameter_entropy * self._networks.mask.sum(dim=-1),
         )
         self._trainer, self._place = Trainer([self._networks], objective), 0
+        consensus = None
+        if settings.consensus:
+            consensus = Consensus(self._grounding, layout.state_size, problem.position_fields, settings.consensus)
         self._replay = Replay(
-            layout.state_size, layout.width, self._encoder.keypoint_shape, balanced=settings.balanced_replay
+            layout.state_size,
+            layout.width,
+            self._encoder.keypoint_shape,
+            balanced=settings.balanced_replay,
+            believed=consensus.believed if consensus else None,
         )
         self._chooser: Chooser | None = None
         if settings.candidates:
