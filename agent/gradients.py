@@ -1,7 +1,8 @@
 """The gradients of SEED's losses (`agent.losses`), worked out by hand for S learners at once.
 
-Autograd does the same by recording some two hundred small operations a step; written out there are a few dozen. A test
-holds both together. For one state, with p = pi_phi(a|s), h_a = min over critics of H(s, a, x_a), alpha temperatures:
+Written out, large networks can go in pieces that stay in the cache, by the quickest products (`agent.kernels`), and
+several learners in one pass; a test holds the gradients to autograd's. For one state, with p = pi_phi(a|s),
+h_a = min over critics of H(s, a, x_a), alpha temperatures:
 
   eq. 1  d/dH          2 (H - label) / B
   eq. 2  d/dlogit_a    p_a [(alpha_phi log p_a - h_a) - sum_b p_b (alpha_phi log p_b - h_b)] / B

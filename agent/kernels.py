@@ -45,9 +45,16 @@ class Weights:
     weights: Sequence[Tensor]
     biases: Sequence[Tensor]
 
-    def of(self, k: int) -> Weights:
-        """One network's: (i, o) and (o,)."""
-        return Weights([w[k] for w in self.weights], [b[k, 0] for b in self.biases])
+    @functools.cached_property
+    def each(self) -> list[Weights]:
+        """One network's each: (i, o) and (o,)."""
+        size = len(self.weights[0])
+        return [Weights([w[k] for w in self.weights], [b[k, 0] for b in self.biases]) for k in range(size)]
+
+    @functools.cached_property
+    def turned(self) -> list[Tensor]:
+        """One network's weights, transposed (o, i)."""
+        return [w.t() for w in self.weights]
 
 
 class Pass:
@@ -72,7 +79,7 @@ class Pass:
         self._passed = []
         self.output = x.new_empty(self._size, outputs, self._rows).transpose(1, 2)
         for k in range(self._size):
-            ours = weights.of(k)
+            ours = weights.each[k]
             for rows in self._parts():
                 pause()
                 passed = _alone(x[k, rows], ours)
@@ -90,7 +97,7 @@ class Pass:
         asked: list[Tensor] = []
         passed = iter(self._passed)
         for k in range(self._size):
-            ours, gradients = self._weights.of(k), into.of(k)
+            ours, gradients = self._weights.each[k], into.each[k]
             for rows in self._parts():
                 self._pause()
                 part = gradient[k, rows]
@@ -150,11 +157,11 @@ def _alone(x: Tensor, weights: Weights) -> list[Tensor]:
     """The same for one network: (B, ...) each."""
     passed = [x]
     last = len(weights.weights) - 1
-    for i, (weight, bias) in enumerate(zip(weights.weights, weights.biases, strict=True)):
-        if weight.shape[-1] > NARROW:
-            passed.append(_onednn(passed[-1], weight.t(), bias, "relu" if i < last else "none"))
+    for i, (turned, bias) in enumerate(zip(weights.turned, weights.biases, strict=True)):
+        if len(bias) > NARROW:
+            passed.append(_onednn(passed[-1], turned, bias, "relu" if i < last else "none"))
         else:
-            out = torch.addmm(bias.unsqueeze(1), weight.t(), passed[-1].t()).t()
+            out = torch.addmm(bias.unsqueeze(1), turned, passed[-1].t()).t()
             passed.append(out.relu_() if i < last else out)
     return passed
 
