@@ -78,6 +78,11 @@ ABLATIONS: Mapping[str, Ablation] = MappingProxyType(
             "Batches hold as many good labels as there happen to be, not half.",
             balanced_replay=False,
         ),
+        "consensus": _without(
+            "no consensus",
+            "Every label is taken at its word; those of like calls don't vote on it.",
+            consensus=0.0,
+        ),
         "twin_critic": _without("one critic", "A single critic instead of the lower of two.", critics=1),
         "gradient_steps": _without(
             "5 steps a label", "As few gradient steps as in the paper, not 20.", gradient_steps=5

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 from pydantic import BaseModel
 
@@ -121,6 +121,16 @@ class Algorithm(Protocol):
         Raises:
             CheckpointError: it is damaged or belongs to something else. Nothing has changed.
         """
+
+
+@runtime_checkable
+class Pausing(Protocol):
+    """An algorithm whose gradient steps may take long: it calls `pause` within them, now and then.
+
+    What `pause` does may ask the algorithm for proposals, and nothing else: they are those of before the step.
+    """
+
+    pause: Callable[[], None]
 
 
 class AlgorithmFactory(Protocol):

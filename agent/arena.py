@@ -6,7 +6,7 @@ go on as before: their parameters become views into the vector.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import torch
 from torch import Tensor, nn
@@ -84,10 +84,10 @@ class Stack:
             for of in (arena.values, arena.gradients)
         )
 
-    def forward(self, x: Tensor, *, learnt: int) -> kernels.Pass:
+    def forward(self, x: Tensor, *, learnt: int, pause: Callable[[], None] = kernels.no_pause) -> kernels.Pass:
         """(S, C or 1, B, input) -> what `kernels.Pass` says, of S * C networks."""
         count = len(self._weights.weights[0]) // len(x)
-        return kernels.Pass(x.expand(-1, count, -1, -1).flatten(0, 1), self._weights, learnt=learnt)
+        return kernels.Pass(x.expand(-1, count, -1, -1).flatten(0, 1), self._weights, learnt=learnt, pause=pause)
 
     def backward(self, passed: kernels.Pass, gradient: Tensor, columns: slice | None = None) -> Tensor | None:
         """Write the weights' gradients into the arena's; see `kernels.Pass.back`."""

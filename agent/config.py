@@ -164,6 +164,15 @@ class SeedSettings(BaseModel):
             "buffer); otherwise each label is as likely"
         ),
     ] = True
+    consensus: Annotated[
+        float,
+        Field(
+            ge=0,
+            le=0.05,
+            description="m between two calls at the same key point, in situations that look alike, whose labels still "
+            "vote on each other, because trainers err: a label means what most of those say; 0 takes each at its word",
+        ),
+    ] = 0.0
     explore_elimination: Annotated[
         bool,
         Field(
@@ -239,6 +248,7 @@ RECOMMENDED: Mapping[str, Any] = MappingProxyType(
         "candidates": 32,
         "recall": 16,
         "explore_elimination": True,
+        "consensus": 0.008,
     }
 )
 """What needs the fewest clicks (measured by `tests/benchmarks/clicks_kinematic.py`)."""

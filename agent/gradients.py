@@ -1,7 +1,8 @@
 """The gradients of SEED's losses (`agent.losses`), worked out by hand for S learners at once.
 
-Autograd does the same by recording some two hundred small operations a step; written out there are a few dozen. A test
-holds both together. For one state, with p = pi_phi(a|s), h_a = min over critics of H(s, a, x_a), alpha temperatures:
+Written out, large networks can go in pieces that stay in the cache, by the quickest products (`agent.kernels`), and
+several learners in one pass; a test holds the gradients to autograd's. For one state, with p = pi_phi(a|s),
+h_a = min over critics of H(s, a, x_a), alpha temperatures:
 
   eq. 1  d/dH          2 (H - label) / B
   eq. 2  d/dlogit_a    p_a [(alpha_phi log p_a - h_a) - sum_b p_b (alpha_phi log p_b - h_b)] / B
@@ -22,7 +23,7 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor
 
-from agent import losses
+from agent import kernels, losses
 from agent.arena import Arena, Stack
 from agent.networks import LOG_STD_MAX, LOG_STD_MIN, LOGIT_BOUND
 
@@ -72,8 +73,11 @@ class Gradients:
         self._targets = skill_entropy_target, parameter_entropy_target
 
     @torch.no_grad()
-    def __call__(self, lesson: Lesson) -> tuple[Tensor, Tensor]:
-        """(S, 7) `METRICS`, and (S,) the total loss, not finite where training diverged."""
+    def __call__(self, lesson: Lesson, pause: Callable[[], None] = kernels.no_pause) -> tuple[Tensor, Tensor]:
+        """(S, 7) `METRICS`, and (S,) the total loss, not finite where training diverged.
+
+        pause: called now and then, so that something else may be done; no weight changes here.
+        """
         S, B, _ = lesson.states.shape
         mask = self._networks.mask
         O, _, P = mask.shape  # noqa: E741 - as in the docstring
@@ -81,8 +85,8 @@ class Gradients:
 
         # the actors, (S, O, B, ...)
         states = lesson.states.unsqueeze(1)
-        skill_pass = self._skill_actor.forward(states, learnt=B)
-        actor_pass = self._parameter_actors.forward(states, learnt=B)
+        skill_pass = self._skill_actor.forward(states, learnt=B, pause=pause)
+        actor_pass = self._parameter_actors.forward(states, learnt=B, pause=pause)
         logits = skill_pass.output.transpose(1, 2)
         log_pi = torch.log_softmax(logits.clamp(-LOGIT_BOUND, LOGIT_BOUND), dim=1)
         pi = log_pi.exp()
@@ -95,7 +99,7 @@ class Gradients:
 
         # the critics judge the labels' calls and the imagined ones in one pass
         imagined, pulled_back = self._imagined(x, lesson.keypoints)
-        critic_pass = self._critics.forward(self._inputs(lesson, imagined), learnt=B)
+        critic_pass = self._critics.forward(self._inputs(lesson, imagined), learnt=B, pause=pause)
         predicted = critic_pass.output.view(S, -1, 1 + O, B)
         error = predicted[:, :, 0] - lesson.targets.unsqueeze(1)
         weighted = error if lesson.weights is None else error * lesson.weights.unsqueeze(1)

@@ -95,10 +95,10 @@ class Grounding:
         used = (self.present[skills] & self.position[skills, None]).unsqueeze(-1)
         parts = [torch.where(used, torch.tanh(offsets / scale), 0.0).flatten(1) for scale in SCALES]
         if bool((self.delta >= 0).any()):
-            parts.append(self._end(skills, parameters))
+            parts.append(self.read_end(skills, parameters))
         return torch.cat(parts, dim=-1)
 
-    def _end(self, skills: Tensor, parameters: Tensor) -> Tensor:
+    def read_end(self, skills: Tensor, parameters: Tensor) -> Tensor:
         """(B, 2) x and y where a push ends, scaled as its start is: what matters to whatever it pushes against."""
         rows, column = torch.arange(len(skills)), self.delta[skills]
         pushes = column >= 0

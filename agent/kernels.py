@@ -12,7 +12,7 @@ rows at a time. Which way depends on shapes and processor only, never on a clock
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import torch
@@ -34,6 +34,10 @@ def onednn() -> bool:
     return there and torch.backends.cpu.get_cpu_capability() == "AVX512"
 
 
+def no_pause() -> None:
+    """Go on at once."""
+
+
 @dataclass(frozen=True)
 class Weights:
     """Of C networks, by layer: weights (C, i, o) and biases (C, 1, o)."""
@@ -41,17 +45,27 @@ class Weights:
     weights: Sequence[Tensor]
     biases: Sequence[Tensor]
 
-    def of(self, k: int) -> Weights:
-        """One network's: (i, o) and (o,)."""
-        return Weights([w[k] for w in self.weights], [b[k, 0] for b in self.biases])
+    @functools.cached_property
+    def each(self) -> list[Weights]:
+        """One network's each: (i, o) and (o,)."""
+        size = len(self.weights[0])
+        return [Weights([w[k] for w in self.weights], [b[k, 0] for b in self.biases]) for k in range(size)]
+
+    @functools.cached_property
+    def turned(self) -> list[Tensor]:
+        """One network's weights, transposed (o, i)."""
+        return [w.t() for w in self.weights]
 
 
 class Pass:
     """One pass forward, kept for the way back. ReLU between layers."""
 
-    def __init__(self, x: Tensor, weights: Weights, *, learnt: int) -> None:
-        """x: (C, B, i). The weights learn from the first `learnt` rows; of the others, only inputs get a gradient."""
-        self._weights, self._learnt = weights, learnt
+    def __init__(self, x: Tensor, weights: Weights, *, learnt: int, pause: Callable[[], None] = no_pause) -> None:
+        """x: (C, B, i). The weights learn from the first `learnt` rows; of the others, only inputs get a gradient.
+
+        pause: called every millisecond or so of a large network's work, there and back.
+        """
+        self._weights, self._learnt, self._pause = weights, learnt, pause
         self._size, self._rows = x.shape[:2]
         self._one_by_one = _large(x, weights)
         outputs = weights.weights[-1].shape[-1]
@@ -65,8 +79,9 @@ class Pass:
         self._passed = []
         self.output = x.new_empty(self._size, outputs, self._rows).transpose(1, 2)
         for k in range(self._size):
-            ours = weights.of(k)
+            ours = weights.each[k]
             for rows in self._parts():
+                pause()
                 passed = _alone(x[k, rows], ours)
                 self.output[k, rows] = passed.pop()
                 self._passed.append(passed)
@@ -82,8 +97,9 @@ class Pass:
         asked: list[Tensor] = []
         passed = iter(self._passed)
         for k in range(self._size):
-            ours, gradients = self._weights.of(k), into.of(k)
+            ours, gradients = self._weights.each[k], into.each[k]
             for rows in self._parts():
+                self._pause()
                 part = gradient[k, rows]
                 if rows.start < self._learnt:
                     _alone_back(next(passed), ours, part, gradients, add=rows.start > 0)
@@ -141,11 +157,11 @@ def _alone(x: Tensor, weights: Weights) -> list[Tensor]:
     """The same for one network: (B, ...) each."""
     passed = [x]
     last = len(weights.weights) - 1
-    for i, (weight, bias) in enumerate(zip(weights.weights, weights.biases, strict=True)):
-        if weight.shape[-1] > NARROW:
-            passed.append(_onednn(passed[-1], weight.t(), bias, "relu" if i < last else "none"))
+    for i, (turned, bias) in enumerate(zip(weights.turned, weights.biases, strict=True)):
+        if len(bias) > NARROW:
+            passed.append(_onednn(passed[-1], turned, bias, "relu" if i < last else "none"))
         else:
-            out = torch.addmm(bias.unsqueeze(1), weight.t(), passed[-1].t()).t()
+            out = torch.addmm(bias.unsqueeze(1), turned, passed[-1].t()).t()
             passed.append(out.relu_() if i < last else out)
     return passed
 

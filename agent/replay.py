@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import dataclasses
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -48,6 +49,10 @@ class Batch:
     keypoints: Float32
 
 
+Believed = Callable[[Batch, NDArray[np.int8]], NDArray[np.int8]]
+"""B labels and their values (B,) -> the values that they are believed to mean (B,)."""
+
+
 def shares(counts: Mapping[int, int], size: int) -> dict[int, int]:
     """How many of a batch of `size` (at least 4) are drawn of each value, given how many labels there are of each.
 
@@ -83,9 +88,13 @@ class Replay:
         keypoints: tuple[int, ...] = NO_KEYPOINTS,
         *,
         balanced: bool = True,
+        believed: Believed | None = None,
     ) -> None:
-        """balanced: whether `sample` keeps to `shares`; otherwise every label is as likely."""
-        self._balanced = balanced
+        """balanced: whether `sample` keeps to `shares`; otherwise every label is as likely.
+
+        believed: what the newest `RECENT` labels count as, in view of each other; None takes each at its word.
+        """
+        self._balanced, self._believed = balanced, believed
         self._size = 0
         self._ids = np.zeros(INITIAL_CAPACITY, dtype=np.int64)
         self._states = np.zeros((INITIAL_CAPACITY, state_size), dtype=np.float32)
@@ -95,6 +104,7 @@ class Replay:
         self._targets = np.zeros(INITIAL_CAPACITY, dtype=np.float32)
         self._keypoints = np.zeros((INITIAL_CAPACITY, *keypoints), dtype=np.float32)
         self._by_value: dict[int, NDArray[np.int64]] | None = None
+        self._means: NDArray[np.int8] | None = None
 
     def __len__(self) -> int:
         return self._size
@@ -131,7 +141,7 @@ class Replay:
         self._targets[at] = entry.target
         self._keypoints[at] = entry.keypoints
         self._size += 1
-        self._by_value = None
+        self._by_value = self._means = None
 
     def empty(self) -> Replay:
         """Another one of the same widths, with nothing in it."""
@@ -157,7 +167,7 @@ class Replay:
             order = np.argsort(self._ids[: self._size], kind="stable")
             for column in self._columns():
                 column[: self._size] = column[: self._size][order]
-        self._by_value = None
+        self._by_value = self._means = None
 
     def forget(self, label_id: int) -> None:
         """Take a label out; an unknown id is ignored."""
@@ -167,12 +177,12 @@ class Replay:
         for column in self._columns():
             column[at : self._size - 1] = column[at + 1 : self._size]
         self._size -= 1
-        self._by_value = None
+        self._by_value = self._means = None
 
     def clear(self) -> None:
         """Take every label out."""
         self._size = 0
-        self._by_value = None
+        self._by_value = self._means = None
 
     def sample(self, size: int, rng: np.random.Generator) -> Batch:
         """Draw `size` labels with replacement, in the proportions of `shares` where it is balanced.
@@ -200,21 +210,43 @@ class Replay:
         return self._batch(self._rows()[-1][-RECENT:])
 
     def refused(self, state: Float32, tolerance: float) -> Batch:
-        """Those of the newest `RECENT` labels that said otherwise than good in this state (n,), give or take."""
+        """Those of the newest `RECENT` labels that said otherwise than good in this state (n,), give or take.
+
+        A single one that the others outvote is let pass, so that the call is asked about again; two are not.
+        """
         recent = np.arange(max(0, self._size - RECENT), self._size)
         here = np.abs(self._states[recent] - state).max(axis=1, initial=0.0) <= tolerance
-        return self._batch(recent[here & (self._values[recent] < 1)])
+        rows = recent[here & (self._values[recent] < 1)]
+        outvoted = self._meanings()[rows] > 0
+        return self._batch(rows if np.count_nonzero(outvoted) > 1 else rows[~outvoted])
 
     def _batch(self, rows: NDArray[np.int64]) -> Batch:
+        said = self._said(rows)
+        if self._believed is None:
+            return said
+        return dataclasses.replace(said, targets=said.targets + (self._meanings()[rows] - self._values[rows]))
+
+    def _said(self, rows: NDArray[np.int64]) -> Batch:
+        """Labels at their word."""
         return Batch(
             self._states[rows], self._skills[rows], self._parameters[rows], self._targets[rows], self._keypoints[rows]
         )
 
+    def _meanings(self) -> NDArray[np.int8]:
+        """(N,) what each label is believed to mean."""
+        if self._believed is None:
+            return self._values[: self._size]
+        if self._means is None:
+            newest = np.arange(max(0, self._size - RECENT), self._size)
+            self._means = self._values[: self._size].copy()
+            self._means[newest] = self._believed(self._said(newest), self._values[newest])
+        return self._means
+
     def _rows(self) -> dict[int, NDArray[np.int64]]:
-        """Row numbers by value."""
+        """Row numbers by what the labels mean."""
         if self._by_value is None:
-            values = self._values[: self._size]
-            self._by_value = {value: np.flatnonzero(values == value) for value in (1, 0, -1)}
+            means = self._meanings()
+            self._by_value = {value: np.flatnonzero(means == value) for value in (1, 0, -1)}
         return self._by_value
 
     def _position(self, label_id: int) -> int:

@@ -8,7 +8,7 @@ bootstrapping: the target of the critic is the label, so no discount and no targ
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -20,8 +20,10 @@ from agent.algorithm import CheckpointError, Label, Problem, Suggestion
 from agent.arena import ADAM_STATE
 from agent.candidates import Chooser, search_of
 from agent.config import SeedSettings
+from agent.consensus import Consensus
 from agent.encoding import Encoder
 from agent.grounding import grounding
+from agent.kernels import no_pause
 from agent.networks import Layout, Networks
 from agent.proposing import Choice, choose
 from agent.replay import Batch, Replay
@@ -67,8 +69,15 @@ class Seed:
             parameter_entropy=settings.parameter_entropy * self._networks.mask.sum(dim=-1),
         )
         self._trainer, self._place = Trainer([self._networks], objective), 0
+        consensus = None
+        if settings.consensus:
+            consensus = Consensus(self._grounding, layout.state_size, problem.position_fields, settings.consensus)
         self._replay = Replay(
-            layout.state_size, layout.width, self._encoder.keypoint_shape, balanced=settings.balanced_replay
+            layout.state_size,
+            layout.width,
+            self._encoder.keypoint_shape,
+            balanced=settings.balanced_replay,
+            believed=consensus.believed if consensus else None,
         )
         self._chooser: Chooser | None = None
         if settings.candidates:
@@ -77,6 +86,7 @@ class Seed:
         self._labels_seen = 0
         self._owed = 0
         self._spare = 0
+        self.pause: Callable[[], None] = no_pause
         self.policy_version = 0
         self.last_label_id = 0
 
@@ -153,7 +163,7 @@ class Seed:
             return None
         if len(self._trainer.arena.learners) > 1:  # trained together with others until now
             self.settle(Trainer.joined([self.seat]), 0)
-        (metrics,) = self._trainer.step([self.draw()])
+        (metrics,) = self._trainer.step([self.draw()], self.pause)
         self.stepped()
         return metrics
 

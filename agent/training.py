@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +12,7 @@ from torch import Tensor
 from agent.algorithm import AgentError
 from agent.arena import Arena
 from agent.gradients import METRICS, Gradients, Lesson
+from agent.kernels import no_pause
 from agent.networks import Networks
 from agent.replay import Batch
 
@@ -46,13 +47,17 @@ class Trainer:
                     value.copy_(moments[key])
         return trainer
 
-    def step(self, drawn: Sequence[tuple[Batch, Tensor]]) -> list[Mapping[str, float]]:
+    def step(
+        self, drawn: Sequence[tuple[Batch, Tensor]], pause: Callable[[], None] = no_pause
+    ) -> list[Mapping[str, float]]:
         """One step for every learner, each on its own batch and noise (O, B, P); the metrics of each.
+
+        pause: called now and then before any weight changes: something may look at the networks meanwhile.
 
         Raises:
             AgentError: a learner's losses are no longer finite. The networks are as before this step.
         """
-        metrics, total = self._gradients(_lesson(drawn))
+        metrics, total = self._gradients(_lesson(drawn), pause)
         if not bool(torch.isfinite(total).all()):
             raise AgentError(
                 f"training diverged at gradient step {int(self.arena.state['step'])}",

@@ -12,7 +12,7 @@ from rich.text import Text
 
 from agent.study.plan import Contestant, Plan, Run, Scenario
 from agent.study.records import Folder, Progress
-from agent.study.results import UNIT, Outcome
+from agent.study.results import Outcome
 
 EVERY = 1.0
 """s between two drawings."""
@@ -68,15 +68,15 @@ def progress_table(folder: Folder, plan: Plan, jobs: int) -> Group:
 def results_table(found: Sequence[Outcome]) -> Table:
     """What came out, in short; `table.md` has the rest."""
     table = Table()
-    for name in ("task", "algorithm", "seeds", "reached", "success rate", "IQM [95 %]", "successes", "violations"):
-        table.add_column(name, justify="left" if name in {"task", "algorithm"} else "right")
+    for name in ("task", "algorithm", "seeds", "budget used", "success", "IQM [95 %]", "successes", "violations"):
+        table.add_column(name, justify="left" if name in {"task", "algorithm"} else "right", no_wrap=True)
     for each in found:
         rate, ratio = each.success_rate, each.violation_ratio
         table.add_row(
             each.scenario.name,
             each.contestant.name,
             f"{each.finished}/{each.planned}",
-            f"{each.reached:,.0f} {UNIT[each.scenario.axis]}",
+            f"{each.reached / each.budget:.0%}",
             f"{rate.mean:.2f}" + (f" ± {rate.sem:.2f}" if rate.sem is not None else ""),
             f"{rate.iqm:.2f}" + (f" [{rate.low:.2f}, {rate.high:.2f}]" if rate.low is not None else ""),
             f"{each.successes.mean:.1f}",

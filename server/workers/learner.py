@@ -1,7 +1,8 @@
 """The learner worker: proposes skill calls and trains from labels, also while nobody asks it anything.
 
 Between requests it works off the gradient steps that the labels owe, and looks for a request between any two of them:
-the time a person thinks trains the network, and a request waits for one step at most.
+the time a person thinks trains the network, and a request waits for one step at most. A proposal that is asked for
+within a long step is made at once, where the algorithm pauses for it.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import hashlib
 import json
 import logging
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
@@ -19,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from agent.affordance import near
-from agent.algorithm import AgentError, Algorithm, AlgorithmFactory, Label, Problem
+from agent.algorithm import AgentError, Algorithm, AlgorithmFactory, Label, Pausing, Problem
 from robot_adapters import registry
 from robot_adapters.base import InvalidCall, SkillCall, check_call
 from robot_adapters.tasks.base import Task, entry_names, position_fields, state_bounds
@@ -48,6 +49,8 @@ class Learner:
         self._metrics: dict[str, float] = {}
         self._fault: Diverged | None = None
         self._lockstep = False
+        self.meanwhile: Callable[[], None] = lambda: None
+        """Called within long gradient steps."""
         self._starved = False
         """The last update had nothing to learn from: no more before something new comes."""
 
@@ -85,6 +88,8 @@ class Learner:
         self._task = registry.task(task)
         self._lockstep = lockstep
         self._algorithm = factory(_problem(self._task), factory.settings.model_validate(settings), seed)
+        if isinstance(self._algorithm, Pausing) and not lockstep:
+            self._algorithm.pause = self.meanwhile
         return self._status()
 
     def propose(self, *, state: list[float], deterministic: bool) -> dict[str, Any]:
@@ -160,23 +165,41 @@ def serve(pipes: Pipes) -> None:
     handlers = {name: getattr(learner, name) for name in names}
     commands = pipes.commands
     flushes: list[Mapping[str, Any]] = []
+    early: list[Mapping[str, Any] | None] = []
+    """Met within a gradient step, and no proposal: it waits for the step's end, and what comes after it waits too."""
+
+    def receive() -> Mapping[str, Any] | None:
+        message = commands.receive()
+        return None if message is None else json.loads(message)
+
+    def reply(request: Mapping[str, Any]) -> None:
+        commands.send(json.dumps(answer(request, handlers)).encode())
+
+    def propose_meanwhile() -> None:
+        while not early and commands.poll(0):
+            request = receive()
+            if request is not None and request["command"] == "propose":
+                reply(request)
+            else:
+                early.append(request)
+
+    learner.meanwhile = propose_meanwhile
     with contextlib.suppress(BrokenPipeError, ConnectionResetError):
         while True:
-            if learner.eager and not commands.poll(0):
+            if learner.eager and not early and not commands.poll(0):
                 learner.step()
                 if not learner.busy:
                     for request in flushes:
-                        commands.send(json.dumps(answer(request, handlers)).encode())
+                        reply(request)
                     flushes.clear()
                 continue
-            message = commands.receive()
-            if message is None:
+            received = early.pop() if early else receive()
+            if received is None:
                 return
-            request = json.loads(message)
-            if request["command"] == "flush" and learner.busy:
-                flushes.append(request)
+            if received["command"] == "flush" and learner.busy:
+                flushes.append(received)
             else:
-                commands.send(json.dumps(answer(request, handlers)).encode())
+                reply(received)
 
 
 def _label(task: Task, stored: Mapping[str, Any]) -> Label:

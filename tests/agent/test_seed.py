@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 import torch
 
-from agent.algorithm import AgentError, Algorithm, CheckpointError, Label, Problem, Suggestion
+from agent import kernels
+from agent.algorithm import AgentError, Algorithm, CheckpointError, Label, Pausing, Problem, Suggestion
 from agent.config import SEED, SeedSettings
 from agent.gradients import METRICS
 from agent.seed import Seed
@@ -197,6 +198,25 @@ def test_an_undone_label_leaves_no_trace(tmp_path: Path) -> None:
     learner.save(tmp_path / "a.ckpt")
     other = resumed(tmp_path / "a.ckpt", [label for label in stored if label.id != 12])
     assert [learner.update() for _ in range(5)] == [other.update() for _ in range(5)]
+
+
+def test_a_long_step_pauses_for_proposals_which_change_nothing() -> None:
+    """They are those of before the step; training goes on as without them."""
+    disturbed, undisturbed = (seed(hidden_size=256, batch_size=256) for _ in range(2))
+    assert isinstance(disturbed, Pausing)
+    within: list[Suggestion] = []
+    disturbed.pause = lambda: within.append(disturbed.propose(STATE, deterministic=True))
+    for learner in (disturbed, undisturbed):
+        learner.add(labels(10))
+        learner.update()
+    before = disturbed.propose(STATE, deterministic=True)
+    seen = len(within)
+    assert disturbed.update() == undisturbed.update()
+    if kernels.onednn():  # elsewhere the networks go together, in one piece
+        assert len(within) > seen
+    assert all(suggestion == before for suggestion in within[seen:])
+    for ours, theirs in zip(disturbed._networks.parameters(), undisturbed._networks.parameters(), strict=True):
+        assert torch.equal(ours, theirs)
 
 
 # --- the schedule

@@ -110,10 +110,9 @@ def summary(needed: Sequence[int | None], budget: int) -> Told:
 
 
 def robot(task: str, name: str = "kinematic", layout: Mapping[str, tuple[float, float]] | None = None) -> Adapter:
-    """The adapter for a task, without pictures where it can do without."""
+    """The adapter for a task, without pictures."""
     factory = registry.adapter(name)
-    drawn = {"draw": False} if name == "kinematic" else {}
-    return factory(task, factory.settings.model_validate({**drawn, "layout": dict(layout or {})}))
+    return factory(task, factory.settings.model_validate({"draw": False, "layout": dict(layout or {})}))
 
 
 def problem_of(task: Task) -> Problem:

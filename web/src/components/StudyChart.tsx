@@ -26,7 +26,7 @@ function options(width: number, scenario: StudyScenario, lines: ChartLine[]): uP
   return {
     width,
     height: HEIGHT,
-    padding: [8, 12, 0, 0],
+    padding: [8, 30, 0, 0],
     legend: { show: false },
     cursor: { y: false, drag: { x: false, y: false } },
     scales: {
