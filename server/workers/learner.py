@@ -207,16 +207,17 @@ def _label(task: Task, stored: Mapping[str, Any]) -> Label:
     state = np.array(stored["state"], dtype=np.float64)
     call = SkillCall(stored["skill"], tuple(stored["parameters"]))
     size = sum(field.size for field in task.state_fields)
+    misfit = None if state.shape == (size,) else f"its state has {state.size} numbers, the task's has {size}"
     try:
-        if state.shape != (size,):
-            raise InvalidCall(f"its state has {state.size} numbers, the task's has {size}", remedy="")
         check_call(call, task.skills)
     except InvalidCall as error:
+        misfit = str(error)
+    if misfit is not None:
         raise Refusal(
-            f"feedback {stored['id']} doesn't fit the task {task.name!r}: {error}",
+            f"feedback {stored['id']} doesn't fit the task {task.name!r}: {misfit}",
             remedy="the task was changed after this feedback was given: put it back as it was and resume, or create a"
             " new experiment",
-        ) from error
+        )
     return Label(stored["id"], state, call, stored["value"], near(task, state, call))
 
 

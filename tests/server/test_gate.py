@@ -13,8 +13,9 @@ VERDICTS: tuple[Verdict | None, ...] = (*Verdict, None)
 
 def test_opens_for_exactly_one_kind_of_situation() -> None:
     opened = 0
-    for mode, verdict, lifecycle, halted, simulated, operator, inside, current, critic, rule in itertools.product(
-        Mode, VERDICTS, Lifecycle, *[BOTH] * 7
+    # in two products: mypy knows the types of a product of few only
+    for (mode, verdict, lifecycle, critic, rule), (halted, simulated, operator, inside, current) in itertools.product(
+        itertools.product(Mode, VERDICTS, Lifecycle, BOTH, BOTH), itertools.product(BOTH, BOTH, BOTH, BOTH, BOTH)
     ):
         decision = gate.decide(
             mode=mode,
