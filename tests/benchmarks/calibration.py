@@ -26,7 +26,8 @@ from robot_adapters.tasks.base import position_fields, state_bounds
 from server.auto_approval import Case, Decision, decide
 from server.schemas import Mode
 from server.schemas_trust import AutoApproval
-from tests.benchmarks.clicks_kinematic import BARS, FIRST_SEED
+from tests.benchmarks._clicks import FIRST_SEED
+from tests.benchmarks.clicks_kinematic import BARS
 from tests.benchmarks.result import Result
 
 LABELS, SKIPPED = 150, 50
