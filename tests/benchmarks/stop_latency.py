@@ -25,7 +25,7 @@ from server.settings import Settings
 from tests.benchmarks.result import Result
 
 BAR = 100.0
-"""ms: from the request to the last set-point (issue: 'halts a moving skill within 100 ms of the request')."""
+"""ms: from the request to the last set-point."""
 STOPS = 60
 SPEEDS = (0.0, 1.0)
 """As fast as the simulator goes, and at the pace of a real arm: 20 set-points a second."""

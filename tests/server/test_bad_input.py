@@ -11,7 +11,6 @@ from agent.config import SEED, SeedSettings
 from server.schemas import Lifecycle
 from server.worker import CommandFailed, Worker
 from tests.agent.problems import of_task
-from tests.live import PLUGINS
 from tests.server.stage import PATIENCE, SMALL, Stage, stage
 
 
@@ -22,11 +21,8 @@ async def failure(s: Stage, experiment_id: int) -> str:
     return str(view.failure)
 
 
-async def test_a_state_with_a_hole_fails_by_name_and_goes_on_once_it_is_seen(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.syspath_prepend(str(PLUGINS))
-    monkeypatch.setenv("PYTHONPATH", str(PLUGINS))
+@pytest.mark.usefixtures("plugins")
+async def test_a_state_with_a_hole_fails_by_name_and_goes_on_once_it_is_seen(tmp_path: Path) -> None:
     flag = tmp_path / "hidden"
     async with stage(tmp_path / "data") as s:
         settings = {"flag": str(flag), "draw": False}

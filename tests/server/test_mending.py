@@ -15,7 +15,6 @@ from robot_adapters.base import AdapterError
 from server.messages import FeedbackStored, ProposalOpened, WorkerChanged
 from server.schemas import EvaluationCreate, Lifecycle
 from server.teacher import UnknownTeacher
-from tests.live import PLUGINS
 from tests.server.stage import Stage, stage
 
 
@@ -26,11 +25,8 @@ async def failed(s: Stage, experiment_id: int) -> str:
     return str(view.failure)
 
 
-async def test_a_learner_that_diverged_is_replaced_when_someone_resumes(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.syspath_prepend(str(PLUGINS))
-    monkeypatch.setenv("PYTHONPATH", str(PLUGINS))
+@pytest.mark.usefixtures("plugins")
+async def test_a_learner_that_diverged_is_replaced_when_someone_resumes(tmp_path: Path) -> None:
     flag = tmp_path / "diverge"
     async with stage(tmp_path / "data", checkpoint_every=2) as s:
         fields = {"algorithm": "diverging", "settings": {"flag": str(flag)}}

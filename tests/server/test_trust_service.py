@@ -6,13 +6,11 @@ from collections.abc import AsyncIterator
 from pathlib import Path
 from typing import Any
 
-import pytest
 import pytest_asyncio
 from websockets.asyncio.client import ClientConnection
 
 from server.schemas import ExperimentUpdate
 from server.schemas_trust import AutoApproval
-from tests.live import PLUGINS
 from tests.server.serving import Serving, event, serving
 from tests.server.test_errors import check_problem
 
@@ -21,10 +19,8 @@ RULE = {"after_feedback": 1, "audit_every": 3}
 
 
 @pytest_asyncio.fixture
-async def live(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> AsyncIterator[Serving]:
+async def live(tmp_path: Path, plugins: None) -> AsyncIterator[Serving]:
     """A service that finds the plug-ins of the tests."""
-    monkeypatch.syspath_prepend(str(PLUGINS))
-    monkeypatch.setenv("PYTHONPATH", str(PLUGINS))
     async with serving(tmp_path) as service:
         yield service
 

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from robot_adapters import registry
 from server.messages import ExecutionEnded, ExperimentChanged, ProposalClosed
 from server.schemas import ExecutionOutcome, Lifecycle, Phase
 from server.store import Conflict, Full, Store
-from tests.live import PLUGINS
 from tests.server.serving import event, serving
 from tests.server.stage import stage
 
@@ -188,17 +185,6 @@ async def test_an_outcome_that_cannot_be_stored_blocks_nothing(tmp_path: Path, m
         following = await s.proposal(at)
         await s.judge(following, 1)
         await s.seen.next(ExecutionEnded, at, where=lambda e: e.execution.proposal_id == following.id)
-
-
-@pytest.fixture
-def plugins() -> Iterator[None]:
-    """The plug-ins for tests, here and in the workers; found anew, because this process has looked before."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.syspath_prepend(str(PLUGINS))
-        patch.setenv("PYTHONPATH", str(PLUGINS))
-        registry._load_all.cache_clear()
-        yield
-    registry._load_all.cache_clear()
 
 
 @pytest.mark.usefixtures("plugins")

@@ -59,9 +59,9 @@ def test_damage_stops_everything_until_an_operator_lifts_the_stop(service: LiveS
     approve(service, experiment, 1)
     seen = wait_for(lambda: _if(service, experiment, halted=True), "the stop", PATIENCE)
     assert seen["lifecycle"] == "paused"
-    assert seen["counters"]["violations"] == 1
-    assert violations(service, experiment) == [("damage", "bumped into the table")]
     (told,) = wait_for(lambda: journal(service, experiment, "operator_needed"), "the journal")
+    assert violations(service, experiment) == [("damage", "bumped into the table")]
+    assert service.get(f"/experiments/{experiment}")["counters"]["violations"] == 1
     assert told[1] == {"response": "halt", "why": ["bumped into the table"]}
     kinds = [kind for kind, _ in journal(service, experiment, "execution_ended", "incident", "halt", "operator_needed")]
     assert kinds == ["execution_ended", "incident", "halt", "operator_needed"]

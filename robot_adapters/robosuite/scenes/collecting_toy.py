@@ -20,7 +20,7 @@ from robot_adapters.tasks.collecting_toy import (
 )
 
 TOY_MASS, TRAY_PART_MASS = 0.05, 0.05  # kg
-RUNNER_FRICTION = 0.6  # N, so that the drawer stays where it is let go. Measured while planning
+RUNNER_FRICTION = 0.6  # N, so that the drawer stays where it is let go; found by trying
 RUNNER_DAMPING = 2.0  # N s/m: it doesn't rebound from its stop
 HANDLE_MASS = 0.01  # kg, each of its two geoms
 SMOOTH: dict[str, mjcf.Attribute] = {"friction": (0.2, 0.005, 0.0001), "priority": 1.0}

@@ -29,7 +29,7 @@ from robot_adapters.tasks.cooking_hotdog import (
 # condim 4: the pads resist turning about the line between them, the skillet's weight hanging from its handle's end
 GRIPS: dict[str, mjcf.Attribute] = {"friction": (2.0, 0.05, 0.0001), "condim": 4.0}
 SLIPPERY: dict[str, mjcf.Attribute] = {"friction": (0.2, 0.005, 0.0001), "priority": 1.0}
-PAN_MASS, RIM_MASS, HANDLE_MASS = 0.08, 0.002, 0.02  # kg, 0.13 in all: measured while planning
+PAN_MASS, RIM_MASS, HANDLE_MASS = 0.08, 0.002, 0.02  # kg, 0.13 in all: found by trying
 SAUSAGE_MASS = 0.02  # kg, each of its two geoms
 
 # The rim leans outwards, so that open fingers find room beside a sausage

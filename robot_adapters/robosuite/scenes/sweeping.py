@@ -11,7 +11,7 @@ from robot_adapters.tasks.base import ObjectSpec, Part
 from robot_adapters.tasks.sweeping import BROOM, GREEN, PAN, PAN_FLOOR, PAN_HALF, PAN_PARTS, TOY
 
 # MuJoCo takes the larger friction of two geoms unless one has priority: without it the toy jams against the broom.
-# Measured while planning
+# Found by trying
 SLIDES: dict[str, mjcf.Attribute] = {"friction": (0.3, 0.005, 0.0001), "priority": 1.0}
 # less between broom and table, where a hand that presses down would hold the head back
 GLIDES: dict[str, mjcf.Attribute] = {"friction": (0.1, 0.005, 0.0001), "priority": 1.0}
