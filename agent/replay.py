@@ -210,13 +210,16 @@ class Replay:
         return self._batch(self._rows()[-1][-RECENT:])
 
     def refused(self, state: Float32, tolerance: float) -> Batch:
-        """Those of the newest `RECENT` labels that said otherwise than good in this state (n,), give or take.
+        """Those of the newest `RECENT` labels that said bad in this state (n,), give or take.
 
-        A single one that the others outvote is let pass, so that the call is asked about again; two are not.
+        A single one that the others outvote is let pass, so that the call is asked about again; two are not. Neutral
+        ones say nothing of the call: they put it off, and count only until the next label that is not neutral.
         """
         recent = np.arange(max(0, self._size - RECENT), self._size)
         here = np.abs(self._states[recent] - state).max(axis=1, initial=0.0) <= tolerance
-        rows = recent[here & (self._values[recent] < 1)]
+        values = self._values[recent]
+        decided = np.logical_or.accumulate(values[::-1] != 0)[::-1]
+        rows = recent[here & ((values < 0) | ~decided)]
         outvoted = self._meanings()[rows] > 0
         return self._batch(rows if np.count_nonzero(outvoted) > 1 else rows[~outvoted])
 

@@ -115,6 +115,20 @@ def test_a_refused_call_is_not_made_again_in_the_same_situation() -> None:
     assert away.min() > 0.03
 
 
+def test_cannot_tell_rules_nothing_out() -> None:
+    """The only place left is asked about again after neutral clicks there, but not at the same spot right after one."""
+    learner = SEED(problem(PICK), SeedSettings(**{**SEED.presets["recommended"], **QUICK}), 0)
+    state, unclear = np.zeros(3), np.array([0.55, 0.1, 0.0])
+    axes = [np.arange(low, high, 0.06) for low, high in zip(PICK.low, PICK.high, strict=True)]
+    spots = np.stack(np.meshgrid(*axes), axis=-1).reshape(-1, 3)
+    refused = [SkillCall("pick", tuple(s)) for s in spots.tolist() if np.linalg.norm(s - unclear) > 0.06]
+    answers = [(call, -1) for call in refused] + 20 * [(SkillCall("pick", tuple(unclear.tolist())), 0)]
+    learner.add([Label(i, state, call, value) for i, (call, value) in enumerate(answers, start=1)])
+    assert np.linalg.norm(np.array(learner.propose(state).call.parameters) - unclear) > 0.02
+    learner.add([Label(1000, state, refused[0], -1)])
+    assert np.linalg.norm(np.array(learner.propose(state).call.parameters) - unclear) < 0.05
+
+
 def test_local_parameters_and_calls_are_each_others_reverse() -> None:
     problem_ = of_task("cooking_hotdog")
     encoder = Encoder(problem_, keypoints="skill")

@@ -77,6 +77,19 @@ def test_shares_add_up_and_draw_only_what_exists(good: int, neutral: int, bad: i
         assert 0 <= drawn[-1] - drawn[1] <= 1
 
 
+def ids_refused(replay: Replay) -> list[int]:
+    return [-int(parameters[0]) for parameters in replay.refused(np.zeros(2, dtype=np.float32), np.inf).parameters]
+
+
+def test_a_neutral_label_puts_a_call_off_only_until_the_next_answer() -> None:
+    replay = filled(-1, 0, 1, 0, 0)
+    assert ids_refused(replay) == [1, 4, 5]
+    replay.add(entry(6, -1))
+    assert ids_refused(replay) == [1, 6]
+    assert ids_refused(filled(0, 0)) == [1, 2]
+    assert ids_refused(filled()) == []
+
+
 def test_an_empty_replay_draws_nothing() -> None:
     with pytest.raises(ValueError, match="empty"):
         Replay(2, 4).sample(8, np.random.default_rng(0))
