@@ -25,6 +25,7 @@ from torch import Tensor
 
 from agent import kernels, losses
 from agent.arena import Arena, Stack
+from agent.imagining import Back, Imagining
 from agent.networks import LOG_STD_MAX, LOG_STD_MIN, LOGIT_BOUND
 
 METRICS = (
@@ -64,6 +65,7 @@ class Gradients:
         networks = arena.learners[0]
         self._networks = networks
         self._size = len(arena.learners)
+        self._imagining = Imagining(networks.grounding) if networks.grounding is not None else None
         self._skill_actor, self._parameter_actors, self._critics = (
             Stack(arena, name) for name in ("skill_actor", "parameter_actors", "critics")
         )
@@ -152,31 +154,14 @@ class Gradients:
             gradient.copy_(surplus)
         return told
 
-    def _imagined(self, x: Tensor, keypoints: Tensor) -> tuple[Tensor, Callable[[Tensor], Tensor]]:
+    def _imagined(self, x: Tensor, keypoints: Tensor) -> tuple[Tensor, Back]:
         """What the critics read of imagined calls beside state and skill, (S, O, B, P + features).
 
-        x: (S, O, B, P) as the parameter actors put it out. Also: from the gradient by the one to that by the other,
-        left to autograd where key points are involved.
+        x: (S, O, B, P) as the parameter actors put it out. Also: from the gradient by the one to that by the other.
         """
-        networks = self._networks
-        if networks.grounding is None or not keypoints.numel():
+        if self._imagining is None or not keypoints.numel():
             return x, lambda gradient: gradient
-        S, O, B, P = x.shape  # noqa: E741
-        with torch.enable_grad():
-            local = x.transpose(0, 1).reshape(O, S * B, P).requires_grad_()
-            parameters = networks.decode(local, keypoints.flatten(0, 1))
-            parts = [parameters]
-            if networks.grounding.features:
-                skills = networks.option_skill.repeat_interleave(S * B)
-                here = keypoints.flatten(0, 1).expand(O, *([-1] * (keypoints.dim() - 1))).flatten(0, 1)
-                parts.append(networks.grounding.read(skills, parameters.flatten(0, 1), here).view(O, S * B, -1))
-            described = torch.cat(parts, dim=-1)
-
-        def pulled_back(gradient: Tensor) -> Tensor:
-            (by_local,) = torch.autograd.grad(described, local, gradient.transpose(0, 1).reshape(described.shape))
-            return by_local.view(O, S, B, P).transpose(0, 1)
-
-        return described.detach().view(O, S, B, -1).transpose(0, 1), pulled_back
+        return self._imagining(x, keypoints)
 
     def _inputs(self, lesson: Lesson, imagined: Tensor) -> Tensor:
         """(S, 1, (1 + O) * B, ...) what the critics read: of the labels' calls first, then of the imagined ones."""
@@ -188,7 +173,10 @@ class Gradients:
             lesson.parameters.flatten(0, 1),
             lesson.keypoints.flatten(0, 1),
         )
-        states = lesson.states.unsqueeze(1).expand(-1, O, -1, -1)
-        one_hot = networks.one_hot[networks.option_skill].view(1, O, 1, -1).expand(S, -1, B, -1)
-        of_imagined = torch.cat([states, one_hot, imagined], dim=-1)
-        return torch.cat([of_labels.view(S, 1, B, -1), of_imagined], dim=1).view(S, 1, (1 + O) * B, -1)
+        inputs = of_labels.new_empty(S, 1 + O, B, of_labels.shape[-1])
+        n, K = lesson.states.shape[-1], networks.layout.skills
+        inputs[:, 0] = of_labels.view(S, B, -1)
+        inputs[:, 1:, :, :n] = lesson.states.unsqueeze(1)
+        inputs[:, 1:, :, n : n + K] = networks.one_hot[networks.option_skill].view(O, 1, K)
+        inputs[:, 1:, :, n + K :] = imagined
+        return inputs.view(S, 1, (1 + O) * B, -1)

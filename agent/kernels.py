@@ -5,15 +5,16 @@ much (measured on one core of an AMD EPYC with AVX-512; `docs/learning-speed.md`
 half the speed of oneDNN on processors that aren't Intel's; a product that ends in a few columns runs at a fraction of
 the speed of the same product transposed; and what doesn't fit a core's cache is fetched again by every operation.
 
-Small networks are a batch of matrices, because there each call costs most; large ones go one after another, so many
-rows at a time. Which way depends on shapes and processor only, never on a clock: the same step gives the same bits.
+Small networks are a batch of matrices, because there each call costs most, as many at a time as the cache holds; large
+ones go one after another, so many rows at a time. Which way depends on shapes and processor only, never on a clock: the
+same step gives the same bits.
 """
 
 from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import torch
 from torch import Tensor
@@ -24,6 +25,10 @@ LARGE = 2**22
 """Multiplications of one network's layer from which oneDNN pays, whose calls cost some 10 us more; found by trying."""
 ACTIVATIONS = 2**16
 """Numbers that a large network's layer gives at a time, a quarter of a cache of 1 MB: 256 rows of 256 units."""
+
+
+TOGETHER = 2**17
+"""Numbers that a layer of small networks gives at a time: half of a cache of 1 MB, with what they are made from."""
 
 
 @functools.cache
@@ -44,6 +49,14 @@ class Weights:
 
     weights: Sequence[Tensor]
     biases: Sequence[Tensor]
+    _pieces: dict[int, list[Weights]] = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    def pieces(self, size: int) -> list[Weights]:
+        """So many networks each, the last one perhaps fewer."""
+        if size not in self._pieces:
+            parts = [slice(at, at + size) for at in range(0, len(self.weights[0]), size)]
+            self._pieces[size] = [Weights([w[p] for w in self.weights], [b[p] for b in self.biases]) for p in parts]
+        return self._pieces[size]
 
     @functools.cached_property
     def each(self) -> list[Weights]:
@@ -71,12 +84,13 @@ class Pass:
         outputs = weights.weights[-1].shape[-1]
         self.output: Tensor
         """(C, B, o)."""
-        self._passed: list[list[Tensor]]
+        self._passed: list[list[Tensor]] = []
         if not self._one_by_one:
-            self._passed = [_batched(x, weights)]
-            self.output = self._passed[0].pop()
+            pieces = torch.split(x, self._at_once())
+            self._passed = [_batched(*piece) for piece in zip(pieces, weights.pieces(self._at_once()), strict=True)]
+            together = [passed.pop() for passed in self._passed]
+            self.output = together[0] if len(together) == 1 else torch.cat(together)
             return
-        self._passed = []
         self.output = x.new_empty(self._size, outputs, self._rows).transpose(1, 2)
         for k in range(self._size):
             ours = weights.each[k]
@@ -112,30 +126,25 @@ class Pass:
         for start, stop in ((0, self._learnt), (self._learnt, self._rows)):
             yield from (slice(at, min(at + most, stop)) for at in range(start, stop, most))
 
+    def _at_once(self) -> int:
+        """Networks whose layer's activations stay in the cache together."""
+        widest = max(w.shape[2] for w in self._weights.weights)
+        return max(1, min(self._size, TOGETHER // (self._rows * widest)))
+
     def _batched_back(self, gradient: Tensor, into: Weights, columns: slice | None) -> Tensor | None:
-        (passed,) = self._passed
-        learnt, weights = self._learnt, self._weights.weights
-        for i in reversed(range(len(weights))):
-            ours, x = gradient[:, :learnt], passed[i][:, :learnt]
-            if ours.shape[-1] <= NARROW:
-                into.weights[i].copy_(torch.bmm(ours.transpose(1, 2), x).transpose(1, 2))
-            else:
-                torch.bmm(x.transpose(1, 2), ours, out=into.weights[i])
-            torch.sum(ours, dim=1, keepdim=True, out=into.biases[i])
-            if i:
-                gradient = torch.bmm(gradient, weights[i].transpose(1, 2))
-                _stop_where_zero(gradient, passed[i])
-        if columns is None:
-            return None
-        return torch.bmm(gradient[:, learnt:], weights[0][:, columns].transpose(1, 2))
+        size = self._at_once()
+        pieces = zip(
+            self._passed, torch.split(gradient, size), self._weights.pieces(size), into.pieces(size), strict=True
+        )
+        asked = [_batched_back(*piece, learnt=self._learnt, columns=columns) for piece in pieces]
+        given = [each for each in asked if each is not None]
+        return torch.cat(given) if given else None
 
 
 def _large(x: Tensor, weights: Weights) -> bool:
     """Whether each network is worth going alone, by oneDNN."""
     work = x.shape[1] * max(w.shape[1] * w.shape[2] for w in weights.weights)
-    together = x.shape[0] * x.shape[1] * max(w.shape[2] for w in weights.weights)
-    enough = work >= LARGE or (work >= LARGE // 2 and together >= 4 * ACTIVATIONS)  # the batch leaves the cache
-    return enough and x.device.type == "cpu" and x.dtype == torch.float32 and onednn()
+    return work >= LARGE and x.device.type == "cpu" and x.dtype == torch.float32 and onednn()
 
 
 def _batched(x: Tensor, weights: Weights) -> list[Tensor]:
@@ -151,6 +160,26 @@ def _batched(x: Tensor, weights: Weights) -> list[Tensor]:
             out = torch.baddbmm(bias, passed[-1], weight)
         passed.append(out.relu_() if i < last else out)
     return passed
+
+
+def _batched_back(
+    passed: list[Tensor], gradient: Tensor, weights: Weights, into: Weights, *, learnt: int, columns: slice | None
+) -> Tensor | None:
+    """`Pass.back` of networks that went together."""
+    for i in reversed(range(len(passed))):
+        ours, x = gradient[:, :learnt], passed[i][:, :learnt]
+        if ours.shape[-1] <= NARROW:
+            into.weights[i].copy_(torch.bmm(ours.transpose(1, 2), x).transpose(1, 2))
+        else:
+            torch.bmm(x.transpose(1, 2), ours, out=into.weights[i])
+        torch.sum(ours, dim=1, keepdim=True, out=into.biases[i])
+        if i:
+            turned = weights.weights[i].transpose(1, 2)
+            gradient = gradient * turned if turned.shape[1] == 1 else torch.bmm(gradient, turned)
+            _stop_where_zero(gradient, passed[i])
+    if columns is None:
+        return None
+    return torch.bmm(weights.weights[0][:, columns], gradient[:, learnt:].transpose(1, 2)).transpose(1, 2)
 
 
 def _alone(x: Tensor, weights: Weights) -> list[Tensor]:
@@ -188,13 +217,15 @@ def _alone_through(passed: list[Tensor], weights: Weights, gradient: Tensor, col
     """The gradient by the input's columns (B, columns) of one network."""
     for i in reversed(range(1, len(passed))):
         gradient = _before(gradient, weights.weights[i], passed[i])
-    return gradient @ weights.weights[0][columns].t()
+    return (weights.weights[0][columns] @ gradient.t()).t()
 
 
 def _before(gradient: Tensor, weight: Tensor, x: Tensor) -> Tensor:
     """From the gradient by a layer's output (B, o) to that before the ReLU that its input x (B, i) came through."""
-    large = gradient.shape[-1] > NARROW
-    gradient = _onednn(gradient, weight, None, "none") if large else gradient @ weight.t()
+    if gradient.shape[-1] > NARROW:
+        gradient = _onednn(gradient, weight, None, "none")
+    else:
+        gradient = gradient * weight.t() if gradient.shape[-1] == 1 else gradient @ weight.t()
     _stop_where_zero(gradient, x)
     return gradient
 

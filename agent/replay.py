@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -47,6 +47,19 @@ class Batch:
     parameters: Float32
     targets: Float32
     keypoints: Float32
+
+    @staticmethod
+    def joined(batches: Sequence[Batch]) -> Batch:
+        """One after another in one."""
+        if len(batches) == 1:
+            return batches[0]
+        names = [field.name for field in dataclasses.fields(Batch)]
+        return Batch(**{name: np.concatenate([getattr(batch, name) for batch in batches]) for name in names})
+
+    def split(self, count: int) -> list[Batch]:
+        """So many of equal size, as they were `joined`."""
+        named = {field.name: np.split(getattr(self, field.name), count) for field in dataclasses.fields(self)}
+        return [Batch(**{name: parts[at] for name, parts in named.items()}) for at in range(count)]
 
 
 Believed = Callable[[Batch, NDArray[np.int8]], NDArray[np.int8]]

@@ -175,11 +175,22 @@ class Seed:
 
     def draw(self) -> tuple[Batch, torch.Tensor]:
         """What the next gradient step learns from: labels, and noise (O, B, P) for the parameters it imagines."""
-        batch = self._replay.sample(self._settings.batch_size, self._drawing)
-        if self._symmetries is not None:
-            batch = self._symmetries.applied(batch, self._drawing)
+        return Seed.drawn([self])[0]
+
+    @staticmethod
+    def drawn(learners: Sequence[Seed]) -> list[tuple[Batch, torch.Tensor]]:
+        """`draw` for several learners of one task and setting, each by its own dice; moved in one pass."""
+        batches = [each._replay.sample(each._settings.batch_size, each._drawing) for each in learners]
+        symmetries = learners[0]._symmetries
+        if symmetries is not None:
+            motions = [symmetries.motions(batch, each._drawing) for each, batch in zip(learners, batches, strict=True)]
+            shift, flip, angle = (np.concatenate(part) for part in zip(*motions, strict=True))
+            batches = symmetries.moved(Batch.joined(batches), shift, flip, angle).split(len(batches))
+        return [(batch, each._noise(len(batch.skills))) for each, batch in zip(learners, batches, strict=True)]
+
+    def _noise(self, size: int) -> torch.Tensor:
         options, _, width = self._networks.mask.shape
-        return batch, torch.randn((options, len(batch.skills), width), generator=self._training)
+        return torch.randn((options, size, width), generator=self._training)
 
     def stepped(self) -> None:
         """Count a gradient step: an owed one, or else a spare one."""

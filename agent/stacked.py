@@ -39,7 +39,7 @@ class StackedSeeds:
         for places in self._level():
             learners = [self.learners[place] for place in places]
             trainer = self._together(learners)
-            metrics = trainer.step([learner.draw() for learner in learners])
+            metrics = trainer.step(Seed.drawn(learners))
             for place, learner, found in zip(places, learners, metrics, strict=True):
                 learner.stepped()
                 told[place] = found

@@ -39,6 +39,10 @@ class Symmetries:
 
     def applied(self, batch: Batch, rng: np.random.Generator) -> Batch:
         """The batch (B labels) with each label moved its own way."""
+        return self.moved(batch, *self.motions(batch, rng))
+
+    def motions(self, batch: Batch, rng: np.random.Generator) -> tuple[Float, Float, Float]:
+        """For each label one that it allows, as `moved` takes them."""
         size = len(batch.skills)
         shift = rng.uniform(-self._translation, self._translation, (size, 2))
         mirrored = rng.random(size) < (0.5 if self._flip else 0.0)
@@ -50,7 +54,7 @@ class Symmetries:
                 shift[(batch.skills == k) & ~along_y, 0] = 0.0
                 shift[(batch.skills == k) & along_y, 1] = 0.0
                 mirrored[(batch.skills == k) & along_y] = False
-        return self.moved(batch, shift, np.where(mirrored, -1.0, 1.0), angle)
+        return shift, np.where(mirrored, -1.0, 1.0), angle
 
     def moved(self, batch: Batch, shift: Float, flip: Float, angle: Float) -> Batch:
         """Mirror y where flip (B,) is -1, turn by angle (B,) rad about the workspace's middle, shift by (B, 2) m."""

@@ -121,3 +121,17 @@ def test_a_diverged_learner_stops_the_pass_before_anything_changed() -> None:
 def test_nobody_owes_anything_at_the_start() -> None:
     stack = StackedSeeds(of_task("stacking"), settings("paper_sim"), SEEDS)
     assert stack.update() == [None, None, None]
+
+
+def test_a_batch_drawn_with_others_is_the_one_drawn_alone() -> None:
+    """Bit for bit, moved and mirrored as it would be: each has its own dice."""
+    stack = StackedSeeds(of_task("collecting_toy"), settings("recommended"), SEEDS)
+    singles = [Seed(of_task("collecting_toy"), settings("recommended"), seed) for seed in SEEDS]
+    for seed, learner, single in zip(SEEDS, stack.learners, singles, strict=True):
+        for each in (learner, single):
+            each.add(judged("collecting_toy", 5, seed=seed))
+    for (batch, noise), single in zip(Seed.drawn(stack.learners), singles, strict=True):
+        expected, dice = single.draw()
+        assert torch.equal(noise, dice)
+        for name in ("states", "skills", "parameters", "targets", "keypoints"):
+            np.testing.assert_array_equal(getattr(batch, name), getattr(expected, name), err_msg=name)
