@@ -199,7 +199,8 @@ class Worker:
 
     async def _read_replies(self, reader: asyncio.StreamReader) -> None:
         """Hand replies to their callers until the process is gone, which its end of the pipe closing tells at once."""
-        with contextlib.suppress(asyncio.IncompleteReadError, ConnectionResetError):
+        # OSError: a command that was written to a process just killed breaks the pipe for the reader too
+        with contextlib.suppress(asyncio.IncompleteReadError, OSError):
             while True:
                 size = LENGTH.unpack(await reader.readexactly(LENGTH.size))[0]
                 reply = json.loads(await reader.readexactly(size))
@@ -221,7 +222,7 @@ class Worker:
                 head = LENGTH.size + LENGTH.unpack(payload[: LENGTH.size])[0]
                 if on_frame is not None:
                     on_frame(payload[LENGTH.size : head], payload[head:])
-        except (asyncio.IncompleteReadError, ConnectionResetError):
+        except (asyncio.IncompleteReadError, OSError):
             pass  # the end of the process; the replies' reader deals with it
         finally:
             writer.close()

@@ -182,6 +182,15 @@ async def test_a_death_is_noticed_by_whoever_waits(robot: Robot) -> None:
     assert (await robot.worker.death()).worker == "robot"
 
 
+async def test_a_death_is_noticed_by_a_command_that_finds_the_pipe_broken(robot: Robot) -> None:
+    os.kill(robot.worker.pid, signal.SIGKILL)
+    os.waitid(os.P_PID, robot.worker.pid, os.WEXITED | os.WNOWAIT)  # before the event loop can see the end
+    with pytest.raises(WorkerDied, match="signal 9"):
+        await robot.call("observe")
+    async with asyncio.timeout(DEADLINE):
+        assert "signal 9" in str(await robot.worker.death())
+
+
 async def test_a_worker_that_does_not_answer_is_killed(robot: Robot) -> None:
     os.kill(robot.worker.pid, signal.SIGSTOP)
     with pytest.raises(WorkerTimeout, match="did not answer 'observe'"):
