@@ -54,7 +54,7 @@ def test_the_form_of_a_new_experiment_says_what_is_wrong(page: Page, service: Li
     dialog.get_by_label("Name").fill("Made in the browser")
     dialog.get_by_label("Seed").fill("3")
     dialog.get_by_label("Algorithm").select_option("scripted")
-    dialog.get_by_label("Robot").select_option("kinematic")
+    dialog.get_by_label("Robot", exact=True).select_option("kinematic")
     dialog.get_by_test_id("create").click()
     page.wait_for_url(re.compile(r"/experiments/\d+$"))
     expect(page.get_by_role("heading", name="Made in the browser")).to_be_visible()
