@@ -184,7 +184,8 @@ async def test_a_death_is_noticed_by_whoever_waits(robot: Robot) -> None:
 
 async def test_a_death_is_noticed_by_a_command_that_finds_the_pipe_broken(robot: Robot) -> None:
     os.kill(robot.worker.pid, signal.SIGKILL)
-    os.waitid(os.P_PID, robot.worker.pid, os.WEXITED | os.WNOWAIT)  # before the event loop can see the end
+    # blocking, so that the event loop can't see the end first
+    os.waitid(os.P_PID, robot.worker.pid, os.WEXITED | os.WNOWAIT)  # noqa: ASYNC222
     with pytest.raises(WorkerDied, match="signal 9"):
         await robot.call("observe")
     async with asyncio.timeout(DEADLINE):
