@@ -74,23 +74,21 @@ class Studies:
 
 
 def _summary(folder: Folder) -> StudySummary:
-    told: dict[str, Any] = {"study": None, "adapter": None, "done": 0.0, "runs": 0, "finished": 0, "failed": 0}
+    told: dict[str, Any] = dict.fromkeys(("study", "adapter", "created_at", "problem"))
+    told |= dict.fromkeys(("done", "runs", "finished", "failed"), 0)
     live = folder.live
     try:
-        plan = folder.plan()
+        plan, created = folder.plan(), datetime.fromtimestamp(folder.created_at(), UTC)
+        told |= {"study": plan.name, "adapter": plan.adapter, "runs": len(plan.runs), "created_at": created}
         seen = [(run, folder.progress(run.id, live=live)) for run in plan.runs]
-        told = {
-            "study": plan.name,
-            "adapter": plan.adapter,
+        told |= {
             "done": sum(progress.done(run) for run, progress in seen) / len(seen),
-            "runs": len(seen),
             "finished": sum(progress.state == "finished" for _, progress in seen),
             "failed": sum(progress.state == "failed" for _, progress in seen),
         }
-        problem, created = None, datetime.fromtimestamp(folder.created_at(), UTC)
-    except StudyError as error:
-        problem, created = f"{error}; {error.remedy}", None
-    return StudySummary(name=folder.path.name, created_at=created, live=live, problem=problem, **told)
+    except StudyError as error:  # one study's matter: the others are listed all the same
+        told["problem"] = f"{error}; {error.remedy}"
+    return StudySummary.model_validate({"name": folder.path.name, "live": live, **told})
 
 
 def _run(run: Run, progress: Progress) -> StudyRun:

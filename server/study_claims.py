@@ -16,8 +16,8 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from agent.study.execution import THREADS, ProcessDied, follow_parent
-from agent.study.plan import StudyError
-from agent.study.records import TABLE, write_json
+from agent.study.files import write_json
+from agent.study.records import TABLE, Folder
 from agent.study.versions import versions
 from server.study_runs import Place
 from server.workers.study import any_task
@@ -59,12 +59,16 @@ def run_claim(claim: Claim, seeds: Sequence[int], rollouts: int, place: Place, c
     """Run every seed on the kinematic adapter; writes table and outcomes to the folder and returns them for `--json`.
 
     Raises:
-        StudyError: the folder has results already. ProcessDied: a seed's process was killed.
+        StudyError: the folder isn't empty, or another process writes to it. ProcessDied: a seed's process was killed.
     """
+    folder = Folder(place.folder(claim.name))
+    with folder.worked_on():
+        folder.require_empty()
+        return _run(claim, seeds, rollouts, place, console)
+
+
+def _run(claim: Claim, seeds: Sequence[int], rollouts: int, place: Place, console: Console) -> dict[str, Any]:
     folder, jobs = place.folder(claim.name), place.jobs or os.cpu_count() or 1
-    if (folder / OUTCOMES).exists():
-        raise StudyError(f"{folder} has results already", remedy="choose another folder by --out")
-    folder.mkdir(parents=True, exist_ok=True)
     began = time.monotonic()
     for name in THREADS:  # read when a library is loaded, in the processes to come
         os.environ.setdefault(name, "1")

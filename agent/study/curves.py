@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from agent.study.evaluations import Row
 from agent.study.plan import Axis, Measure, Plan
-from agent.study.records import Folder, Row
+from agent.study.records import Folder
 from robot_adapters.base import Array
 
 

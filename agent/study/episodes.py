@@ -10,6 +10,9 @@ import numpy as np
 from robot_adapters.base import Adapter, Array, SkillCall
 from robot_adapters.tasks.base import Task
 
+FIRST_START = 10_000
+"""Seed of the first evaluated rollout's start, the same for everyone who is compared."""
+
 
 @dataclass
 class Counts:

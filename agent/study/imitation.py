@@ -14,9 +14,8 @@ import numpy as np
 
 from agent.bc import Cloning, Demonstration
 from agent.config import SEED, SeedSettings
-from agent.study.episodes import SkillEpisodes
+from agent.study.episodes import FIRST_START, SkillEpisodes
 from agent.study.lessons import (
-    FIRST_START,
     Policy,
     Stage,
     deterministic,

@@ -9,13 +9,10 @@ import numpy as np
 
 from agent.algorithm import Algorithm, Label, Problem
 from agent.config import SEED, SeedSettings
-from agent.study.episodes import SkillEpisodes
+from agent.study.episodes import FIRST_START, SkillEpisodes
 from agent.study.scenes import across_the_table
 from robot_adapters.base import Adapter, Array, SkillCall
 from robot_adapters.tasks.base import Task, position_fields, state_bounds
-
-FIRST_START = 10_000
-"""Seed of the first of the starts that rollouts share; training starts from lower ones."""
 
 Stage = Callable[[Task], Adapter]
 """Builds a robot that stages a task. Studies are handed it: which robot it is, they don't know."""

@@ -151,8 +151,8 @@ class Run(Frozen):
     contestant: Contestant
     scenario: Scenario
     seed: int
-    budget: int
-    most_decisions: int | None = None
+    budget: Annotated[int, Field(ge=1)]
+    most_decisions: Annotated[int, Field(ge=1)] | None = None
     """Ends the run too where the budget is low-level steps: a rejected skill moves nothing and costs none."""
     oracle: str | None = None
     """Id of the run whose learner judges this one's actions."""
@@ -165,9 +165,9 @@ class Plan(Frozen):
 
     name: str
     adapter: str
-    seeds: tuple[int, ...]
+    seeds: Annotated[tuple[int, ...], Field(min_length=1)]
     protocol: Protocol
-    runs: tuple[Run, ...]
+    runs: Annotated[tuple[Run, ...], Field(min_length=1)]
 
     @property
     def scenarios(self) -> tuple[Scenario, ...]:

@@ -9,22 +9,21 @@
 from __future__ import annotations
 
 import contextlib
-import csv
 import fcntl
-import json
-import os
 import time
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, Field
 
+from agent.study.evaluations import Row, read_rows
+from agent.study.files import read_json, readable, write_json
 from agent.study.plan import Axis, Plan, Run, StudyError
 
 STUDY, RESULTS, TABLE, FIGURES, RUNS = "study.json", "results.csv", "table.md", "figures", "runs"
-RUN, EVALUATIONS, PROGRESS, LOCK = "run.json", "evaluations.csv", "progress.json", ".lock"
+RUN, EVALUATIONS, PROGRESS, STATE = "run.json", "evaluations.csv", "progress.json", "state.json"
+LOCK = ".lock"
 
 State = Literal["waiting", "running", "interrupted", "finished", "failed"]
 
@@ -32,7 +31,7 @@ State = Literal["waiting", "running", "interrupted", "finished", "failed"]
 class Progress(BaseModel):
     """How far a run is. rate: units of its axis a second, since it was last started; error: why it failed."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
     state: State = "waiting"
     decisions: int = 0
@@ -57,29 +56,26 @@ class Progress(BaseModel):
         return min(1.0, share)
 
 
-@dataclass(frozen=True)
-class Row:
-    """One evaluation. The counts before it are of training; `seconds` is the time spent on the run until then."""
+class Checkpoint(BaseModel):
+    """From where a run goes on. evaluated: the newest evaluation; course: what the course needs beside its learner."""
 
-    evaluation: int
-    decisions: int
-    low_level_steps: int
-    executions: int
-    episodes: int
-    successes: int
-    violations: int
-    updates: int
-    rollouts: int
-    rollouts_succeeded: int
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+    learner: str
+    """Name of the learner's file, beside this one."""
+    evaluated: int
     seconds: float
-
-    @property
-    def success_rate(self) -> float:
-        """Share of the rollouts that succeeded."""
-        return self.rollouts_succeeded / self.rollouts
+    course: Mapping[str, Any]
 
 
-COLUMNS = tuple(Row.__dataclass_fields__)
+class _Begun(BaseModel):
+    """`study.json`."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    plan: Plan
+    versions: Mapping[str, str] = {}
+    created_at: float = Field(ge=0, lt=253_402_300_800)  # s since the epoch; that is the year 10000
 
 
 class Folder:
@@ -104,12 +100,20 @@ class Folder:
                 f"{self.path} holds a study already",
                 remedy="go on with it by --resume, or choose another folder by --out",
             )
-        if self.path.is_file() or (self.path.is_dir() and any(each.name != LOCK for each in self.path.iterdir())):
-            raise StudyError(f"{self.path} is no empty folder", remedy="choose a new folder by --out")
+        self.require_empty()
         for run in plan.runs:
             self.run(run.id).mkdir(parents=True, exist_ok=True)
         content = {"plan": plan.model_dump(mode="json"), "versions": dict(versions), "created_at": time.time()}
         write_json(self.path / STUDY, content)
+
+    def require_empty(self) -> None:
+        """Make sure that nothing is overwritten here.
+
+        Raises:
+            StudyError: there is something.
+        """
+        if self.path.is_dir() and any(each.name != LOCK for each in self.path.iterdir()):
+            raise StudyError(f"{self.path} is no empty folder", remedy="choose a new folder by --out")
 
     def plan(self) -> Plan:
         """What is done here.
@@ -117,34 +121,53 @@ class Folder:
         Raises:
             StudyError: there is no study, or one that this version can't read.
         """
-        try:
-            return Plan.model_validate(self._study()["plan"])
-        except (KeyError, TypeError, ValidationError) as error:
-            raise StudyError(
-                f"{self.path / STUDY} can't be read: {error}",
-                remedy="run it with the version that made it (its `versions` say which), or begin anew by --out",
-            ) from error
+        return self._begun().plan
 
     def versions(self) -> Mapping[str, str]:
-        """What it was begun with."""
-        return dict(self._study().get("versions", {}))
+        """What it was begun with; raises as `plan` does."""
+        return self._begun().versions
 
     def created_at(self) -> float:
-        """Seconds since the epoch."""
-        return float(self._study().get("created_at", 0.0))
+        """Seconds since the epoch; raises as `plan` does."""
+        return self._begun().created_at
 
     def run(self, run_id: str) -> Path:
         """The folder of a run."""
         return self.path / RUNS / run_id
 
     def rows(self, run_id: str) -> list[Row]:
-        """The evaluations of a run so far."""
-        return read_rows(self.run(run_id) / EVALUATIONS)
+        """The evaluations of a run so far.
+
+        Raises:
+            StudyError: their file is damaged.
+        """
+        path = self.run(run_id) / EVALUATIONS
+        with readable(path, self.path, AGAIN):
+            return read_rows(path)
+
+    def checkpoint(self, run_id: str) -> Checkpoint | None:
+        """From where a run goes on; None where it begins.
+
+        Raises:
+            StudyError: its file is damaged.
+        """
+        path = self.run(run_id) / STATE
+        try:
+            with readable(path, self.path, AGAIN):
+                return Checkpoint.model_validate(read_json(path))
+        except FileNotFoundError:
+            return None
 
     def progress(self, run_id: str, *, live: bool) -> Progress:
-        """How far a run is. live: whether a process works on the study; without, a run that was going is not now."""
+        """How far a run is. live: whether a process works on the study; without, a run that was going is not now.
+
+        Raises:
+            StudyError: its file is damaged.
+        """
+        path = self.run(run_id) / PROGRESS
         try:
-            found = Progress.model_validate(read_json(self.run(run_id) / PROGRESS))
+            with readable(path, self.path, "delete this file and go on with the study: it is written anew"):
+                found = Progress.model_validate(read_json(path))
         except FileNotFoundError:
             return Progress()
         if found.state == "running" and not live:
@@ -162,10 +185,10 @@ class Folder:
         try:
             with (self.path / LOCK).open("rb") as file:
                 fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
-        except FileNotFoundError:
-            return False
         except BlockingIOError:
             return True
+        except OSError:  # there is none, or it isn't ours
+            return False
         return False
 
     @contextlib.contextmanager
@@ -173,10 +196,16 @@ class Folder:
         """Be the one process that works on it, while inside.
 
         Raises:
-            StudyError: another one does.
+            StudyError: another one does, or there can't be such a folder.
         """
-        self.path.mkdir(parents=True, exist_ok=True)
-        with (self.path / LOCK).open("ab") as file:
+        try:
+            self.path.mkdir(parents=True, exist_ok=True)
+            lock = (self.path / LOCK).open("ab")
+        except OSError as error:
+            raise StudyError(
+                f"--out: {self.path} can't be written to: {error.strerror}", remedy="choose another folder by --out"
+            ) from error
+        with lock as file:
             for attempt in range(LOCK_ATTEMPTS):
                 try:
                     fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -189,63 +218,17 @@ class Folder:
                     time.sleep(0.02)
             yield
 
-    def _study(self) -> dict[str, Any]:
+    def _begun(self) -> _Begun:
+        path = self.path / STUDY
+        remedy = "run it with the version that made it (its `versions` say which), or begin anew in another folder"
         try:
-            found = read_json(self.path / STUDY)
-        except (OSError, ValueError) as error:
+            with readable(path, self.path, remedy):
+                return _Begun.model_validate(read_json(path))
+        except FileNotFoundError as error:
             raise StudyError(
                 f"there is no study in {self.path}", remedy="leave --resume out, or name its folder by --out"
             ) from error
-        if not isinstance(found, dict):
-            raise StudyError(f"{self.path / STUDY} is of something else", remedy="choose another folder by --out")
-        return found
 
 
+AGAIN = "delete the run's folder and go on with the study: the run is done anew"
 LOCK_ATTEMPTS = 25
-
-
-def write_json(path: Path, content: Any) -> None:
-    """Write whole or not at all, and to the disk."""
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
-    with temporary.open("w", encoding="utf-8") as file:
-        json.dump(content, file, indent=1)
-        file.flush()
-        os.fsync(file.fileno())
-    temporary.replace(path)
-
-
-def read_json(path: Path) -> Any:
-    """What `write_json` wrote."""
-    return json.loads(path.read_text("utf-8"))
-
-
-def append_row(path: Path, row: Row) -> None:
-    """Add a line to an evaluations file; the first one gets its heading."""
-    new = not path.exists()
-    with path.open("a", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        if new:
-            writer.writerow(COLUMNS)
-        writer.writerow([getattr(row, name) for name in COLUMNS])
-        file.flush()
-        os.fsync(file.fileno())
-
-
-def read_rows(path: Path) -> list[Row]:
-    """Every whole line of an evaluations file; none where there is no file yet."""
-    if not path.exists():
-        return []
-    with path.open(newline="", encoding="utf-8") as file:
-        return [_row(line) for line in csv.DictReader(file) if all(line.get(name) for name in COLUMNS)]
-
-
-def keep_rows(path: Path, rows: Sequence[Row]) -> None:
-    """Make these the only lines: those after them were of work that was lost."""
-    if path.exists():
-        path.unlink()
-    for row in rows:
-        append_row(path, row)
-
-
-def _row(line: Mapping[str, str]) -> Row:
-    return Row(*(float(line[name]) if name == "seconds" else int(line[name]) for name in COLUMNS))  # type: ignore[arg-type]

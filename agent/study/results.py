@@ -10,8 +10,9 @@ import numpy as np
 
 from agent.study import paper
 from agent.study.curves import value_of
+from agent.study.evaluations import Row
 from agent.study.plan import Axis, Contestant, Measure, Plan, Scenario
-from agent.study.records import RESULTS, TABLE, Folder, Progress, Row
+from agent.study.records import RESULTS, TABLE, Folder, Progress
 from agent.study.statistics import CONFIDENCE, Summary, summary
 
 UNIT = {Axis.LOW_LEVEL_STEPS: "low-level steps", Axis.DECISIONS: "decisions"}

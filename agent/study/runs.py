@@ -14,29 +14,16 @@ from typing import Any
 from agent.algorithm import AgentError
 from agent.study.algorithms import Builders, course
 from agent.study.courses import Course
+from agent.study.episodes import FIRST_START
+from agent.study.evaluations import Row, append_row, keep_rows
+from agent.study.files import write_json
 from agent.study.plan import Axis, Plan, Run, StudyError
-from agent.study.records import (
-    EVALUATIONS,
-    LOCK,
-    PROGRESS,
-    RUN,
-    Folder,
-    Progress,
-    Row,
-    append_row,
-    keep_rows,
-    read_json,
-    read_rows,
-    write_json,
-)
+from agent.study.records import AGAIN, EVALUATIONS, LOCK, PROGRESS, RUN, RUNS, STATE, Checkpoint, Folder, Progress
 from agent.study.versions import versions
 from robot_adapters.base import AdapterError
 
 log = logging.getLogger("seed.study")
 
-STATE = "state.json"
-FIRST_START = 10_000
-"""Seed of the first evaluated rollout's start: each evaluation has new starts, the same for every contestant."""
 TELL_EVERY = 0.5
 """s between two notes of how far a run is."""
 
@@ -81,12 +68,13 @@ def trained(folder: Folder, run_id: str) -> Path:
     Raises:
         StudyError: it isn't finished.
     """
-    if folder.progress(run_id, live=True).state != "finished":
+    found = folder.checkpoint(run_id)
+    if found is None or folder.progress(run_id, live=True).state != "finished":
         raise StudyError(
             f"the run {run_id}, whose learner judges this one's actions, isn't finished",
             remedy="see why it failed, then go on by --resume",
         )
-    return folder.run(run_id) / str(read_json(folder.run(run_id) / STATE)["learner"])
+    return folder.run(run_id) / found.learner
 
 
 class _Worker:
@@ -160,24 +148,31 @@ class _Worker:
     def _save(self, each: Course) -> None:
         learner = f"learner-{self._evaluated}.ckpt"
         saved = each.save(self._folder / learner)
-        content = {"learner": learner, "evaluated": self._evaluated, "seconds": self._seconds(), "course": saved}
-        write_json(self._folder / STATE, content)  # from here on the new checkpoint counts
+        found = Checkpoint(learner=learner, evaluated=self._evaluated, seconds=self._seconds(), course=saved)
+        write_json(self._folder / STATE, found.model_dump(mode="json"))  # from here on the new checkpoint counts
         for old in self._folder.glob("learner-*.ckpt"):
             if old.name != learner:
                 old.unlink()
 
     def _load(self, each: Course) -> None:
         """Go on from the newest checkpoint, if there is one; what came after it is forgotten, and done again."""
-        rows = read_rows(self._folder / EVALUATIONS)
-        if not (self._folder / STATE).exists():
-            keep_rows(self._folder / EVALUATIONS, [])
-            self.progress = Progress()
-        else:
-            state = read_json(self._folder / STATE)
-            self._evaluated = int(state["evaluated"])
-            keep_rows(self._folder / EVALUATIONS, [row for row in rows if row.evaluation <= self._evaluated])
-            each.load(self._folder / str(state["learner"]), state["course"])
-            self._earlier = float(state["seconds"])
+        study, run = Folder(self._folder.parent.parent), self._run.id
+        found, rows = study.checkpoint(run), []
+        self.progress = Progress()
+        if found is not None:
+            rows = [row for row in study.rows(run) if row.evaluation <= found.evaluated]
+            numbers = [row.evaluation for row in rows]  # a long skill may skip some
+            if not numbers or (numbers[0], numbers[-1]) != (0, found.evaluated) or numbers != sorted(set(numbers)):
+                raise StudyError(
+                    f"{study.path.name}/{RUNS}/{run}/{EVALUATIONS} lacks evaluations up to {found.evaluated}, from "
+                    "where the run would go on",
+                    remedy=AGAIN,
+                )
+            each.load(self._folder / found.learner, found.course)
+            self._evaluated, self._earlier = found.evaluated, found.seconds
+            rate = rows[-1].success_rate
+            self.progress = Progress(evaluations=found.evaluated, success_rate=rate)
+        keep_rows(self._folder / EVALUATIONS, rows)
         self._began = time.monotonic()
         self.tell("running", each)
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from agent.study.algorithms import CONTESTANTS, ORACLE
+from agent.study.evaluations import Row, append_row
+from agent.study.files import write_json
 from agent.study.plan import SCENARIOS, Plan, Protocol, planned
-from agent.study.records import EVALUATIONS, PROGRESS, Folder, Progress, Row, append_row, write_json
+from agent.study.records import EVALUATIONS, PROGRESS, Folder, Progress
 
 
 def plan(seeds: int = 2) -> Plan:

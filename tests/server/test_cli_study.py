@@ -132,6 +132,13 @@ def test_folders_of_something_else_are_left_alone(tmp_path: Path) -> None:
     thesis.write_text("mine")
     wrong([*TINY, "--out", thesis.parent], "no empty folder")
     assert [each.name for each in thesis.parent.iterdir() if not each.name.startswith(".")] == ["chapter.tex"]
+    wrong(["study", "imitation", "--out", thesis.parent], "no empty folder")
+    with Folder(tmp_path / "busy").worked_on():
+        wrong(["study", "composition", "--out", tmp_path / "busy"], "another process works on")
+    for arguments in (TINY, ("study", "composition")):
+        wrong([*arguments, "--out", thesis], "--out", "can't be written to")
+        wrong([*arguments, "--out", thesis / "below"], "--out", "can't be written to")
+    assert thesis.read_text() == "mine"
     other = tmp_path / "other"
     other.mkdir()
     (other / "study.json").write_text('{"plan": {"name": "another"}}')

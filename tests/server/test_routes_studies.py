@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from agent.study.evaluations import COLUMNS
 from agent.study.figures import write_figures
 from agent.study.results import write_results
 from tests.server.serving import serving
@@ -77,14 +80,46 @@ async def test_figures_and_tables_can_be_had_and_nothing_else(tmp_path: Path) ->
             assert answer.json()["remedy"]
 
 
-async def test_a_study_that_cannot_be_read_says_why(tmp_path: Path) -> None:
-    broken = tmp_path / "data" / "studies" / "broken"
-    broken.mkdir(parents=True)
-    (broken / "study.json").write_text('{"plan": 1}')
-    (broken.parent / "notes").mkdir()
+RUN = "runs/first_subgoal-seed-10"
+ROW = ",".join(map(str, [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0]))
+"""An evaluation of no rollouts."""
+
+
+DAMAGED: list[tuple[str, str | dict[str, Any], bool]] = [
+    ("study.json", "{", False),
+    ("study.json", '{"plan": 1}', False),
+    ("study.json", {"created_at": "soon"}, False),
+    ("study.json", {"versions": [1]}, False),
+    ("study.json", {"plan": {"runs": []}}, False),
+    (f"{RUN}/progress.json", "{", False),
+    (f"{RUN}/progress.json", '{"seconds": NaN}', False),
+    (f"{RUN}/evaluations.csv", f"{','.join(COLUMNS)}\n{ROW}\n", True),
+    (f"{RUN}/evaluations.csv", f"{','.join(COLUMNS)}\n{ROW.replace('0', 'many')}\n", True),
+]
+"""File, what is in it (for JSON: what is changed), and whether the list of studies, which reads no rows, has it."""
+
+
+async def test_a_damaged_file_is_named_and_hides_no_other_study(tmp_path: Path) -> None:
+    studies = tmp_path / "data" / "studies"
+    begun(studies / "good")
+    (studies / "notes").mkdir()
+    for number, (file, content, _) in enumerate(DAMAGED):
+        path = begun(studies / f"bad{number}").path / file
+        if isinstance(content, dict):
+            whole = json.loads(path.read_text())
+            content = json.dumps(whole | content | {"plan": whole["plan"] | content.get("plan", {})})  # noqa: PLW2901
+        path.write_text(content)
     async with serving(tmp_path / "data") as at:
-        (summary,) = (await at.http.get("/api/v1/studies")).json()
-        assert "can't be read" in summary["problem"]
-        answer = await at.http.get("/api/v1/studies/broken")
-        assert answer.status_code == 422
-        assert "versions" in answer.json()["remedy"]
+        problems = {each["name"]: each["problem"] for each in (await at.http.get("/api/v1/studies")).json()}
+        assert len(problems) == 1 + len(DAMAGED)
+        assert problems["good"] is None
+        assert (await at.http.get("/api/v1/studies/good")).status_code == 200
+        for number, (file, _, listed) in enumerate(DAMAGED):
+            told = f"bad{number}/{file} can't be read"
+            answer = await at.http.get(f"/api/v1/studies/bad{number}")
+            assert answer.status_code == 422, told
+            assert told in answer.json()["detail"]
+            assert answer.json()["remedy"]
+            assert str(tmp_path) not in answer.text
+            problem = problems[f"bad{number}"]
+            assert problem is None if listed else told in problem

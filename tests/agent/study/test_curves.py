@@ -6,8 +6,8 @@ import pytest
 
 from agent.study import paper
 from agent.study.curves import curve
+from agent.study.evaluations import Row
 from agent.study.plan import SCENARIOS, Axis, Measure
-from agent.study.records import Row
 
 
 def row(steps: int, succeeded: int = 0, successes: int = 0) -> Row:

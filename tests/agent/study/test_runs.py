@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
+import shutil
 from pathlib import Path
 
 import pytest
 import torch
 
 from agent.study.algorithms import CONTESTANTS, ORACLE
+from agent.study.evaluations import Row, append_row, keep_rows, read_rows
 from agent.study.plan import SCENARIOS, Plan, Protocol, planned
-from agent.study.records import Folder, Row
+from agent.study.records import Folder
 from agent.study.runs import work
 from server.workers.study import builders
 
@@ -82,6 +84,54 @@ def test_an_interrupted_run_ends_with_the_same_numbers(
     assert expected[-1].evaluation == 3
     assert expected[-1].updates > 0
     assert in_pieces(plan, tmp_path / "pieces", every) == expected
+
+
+def stopped(plan: Plan, path: Path, after: int = 25) -> Path:
+    """The folder of the plan's only run, interrupted after some decisions."""
+    asked = itertools.count()
+    (run,) = plan.runs
+    progress = work(run, plan, path, builders("kinematic"), lambda: next(asked) >= after)
+    assert progress.state == "interrupted"
+    return Folder(path).run(run.id)
+
+
+@pytest.mark.parametrize("content", [None, "{", '{"learner": "learner-1.ckpt"}', "[]"])
+def test_a_run_never_goes_on_from_damaged_files(tmp_path: Path, content: str | None) -> None:
+    plan = small("maple-aff", "sweeping", 9, evaluations=3)
+    folder = stopped(plan, tmp_path / "study", after=8)
+    file = "evaluations.csv" if content is None else "state.json"
+    (folder / file).unlink() if content is None else (folder / file).write_text(content)
+    failed = work(plan.runs[0], plan, tmp_path / "study", builders("kinematic"), lambda: False)
+    assert failed.state == "failed"
+    assert failed.error is not None
+    assert f"study/runs/{folder.name}/{file}" in failed.error
+    assert "delete the run's folder" in failed.error
+    shutil.rmtree(folder)
+    assert whole(plan, tmp_path / "study")[-1].evaluation == 3
+
+
+def test_keeping_rows_loses_none_wherever_it_is_killed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "evaluations.csv"
+    rows = [Row(number, 9, 0, 0, 0, 0, 0, 0, 10, 5, 0.5) for number in range(4)]
+    for row in rows:
+        append_row(path, row)
+    whole_file = path.stat()
+    keep_rows(path, rows)
+    assert path.stat().st_ino == whole_file.st_ino, "nothing is written where nothing changes"
+    with path.open("a") as file:
+        file.write("4,9,0")  # a torn line
+    with monkeypatch.context() as killed:
+        killed.setattr(Path, "replace", _killed)
+        with pytest.raises(KeyboardInterrupt):
+            keep_rows(path, rows[:2])
+    assert read_rows(path) == rows
+    keep_rows(path, rows[:2])
+    append_row(path, rows[2])
+    assert read_rows(path) == rows[:3]
+
+
+def _killed(*_: object) -> None:
+    raise KeyboardInterrupt
 
 
 def test_a_judged_skill_that_was_refused_costs_no_low_level_step(tmp_path: Path) -> None:
