@@ -66,7 +66,10 @@ def wilson(successes: int, count: int, z: float = Z_95) -> tuple[float, float]:
     share, square = successes / count, z * z / count
     middle = (share + square / 2) / (1 + square)
     half = z / (1 + square) * math.sqrt(share * (1 - share) / count + square / (4 * count))
-    return max(0.0, middle - half), min(1.0, middle + half)
+    # exact at the ends: rounding would leave n of n a hair below 1, and so below a share of 1 that is asked for
+    low = 0.0 if successes == 0 else max(0.0, middle - half)
+    high = 1.0 if successes == count else min(1.0, middle + half)
+    return low, high
 
 
 def _bin(number: int, bins: int, held: Sequence[tuple[float, float]]) -> Bin:

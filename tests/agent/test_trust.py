@@ -48,6 +48,12 @@ def test_wilson(successes: int, count: int, low: float, high: float) -> None:
     assert wilson(successes, count) == pytest.approx((low, high), abs=1e-4)
 
 
+def test_wilson_reaches_exactly_to_the_end_where_all_trials_agree() -> None:
+    for count in range(1, 501):
+        assert wilson(count, count)[1] == 1.0
+        assert wilson(0, count)[0] == 0.0
+
+
 def test_wilson_refuses_what_is_no_share() -> None:
     for successes, count in ((3, 2), (-1, 2)):
         with pytest.raises(ValueError, match="no share"):

@@ -105,6 +105,11 @@ def test_it_ends_once_trainers_surely_agree_too_rarely() -> None:
     assert too_low(AutoApproval(agreement_at_least=1.0), WINDOW, WINDOW - 1)
 
 
+def test_full_agreement_is_never_too_low() -> None:
+    strictest = AutoApproval(agreement_at_least=1)
+    assert not any(too_low(strictest, count, count) for count in range(WINDOW + 1))
+
+
 def test_a_rule_for_a_real_robot_or_a_single_critic_is_refused() -> None:
     check(RULE, adapter="kinematic", simulated=True, settings={"critics": 2})
     check(None, adapter="benchtop", simulated=False, settings={})
