@@ -78,8 +78,8 @@ class Desk:
             considered = await self._store.consider(self.open.id, simulated=simulated)
             if considered.decision is Decision.APPROVE:
                 self.open, self.judged = None, considered.proposal
-        if considered.suspended or considered.decision is Decision.APPROVE:
-            self._ledger.refresh()
+        # without clicks nothing else tells of the motions so far; nor that auto-approval has just suspended itself
+        self._ledger.refresh()
 
     async def verdict(self, leave: asyncio.Event) -> Proposal | None:
         """Wait until the open proposal is closed; the judged one, or None where it closed without a verdict.
@@ -136,8 +136,10 @@ class Desk:
         async with self.turn:
             undone = await self._store.undo_feedback(feedback_id)
             self._crew.forget(feedback_id)
-            self.judged = None
+            dropped, self.judged = self.judged, None
             self._publish(FeedbackUndone(feedback=undone.feedback))
+            if dropped is not None and dropped.id != undone.reopened.id:  # the critic's, which nothing comes of now
+                self._publish(ProposalClosed(proposal=dropped))
             if undone.withdrawn is not None:
                 self._publish(ProposalClosed(proposal=undone.withdrawn))
             self._show(undone.reopened)

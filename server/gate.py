@@ -22,7 +22,7 @@ def decide(
 ) -> GateDecision:
     """The decision for a training proposal; the reason names the first thing that keeps the gate shut.
 
-    by_critic: the verdict is the critic's own. auto_approval: the experiment has a rule that lets it approve.
+    by_critic: the verdict is the critic's own. auto_approval: the rule by which it approved still holds.
     """
     if halted:
         return _shut("the emergency stop is latched")
@@ -31,7 +31,7 @@ def decide(
     if by_critic and not simulated:
         return _shut("a real robot moves by a person's verdict only, and this one is the critic's")
     if by_critic and not auto_approval:
-        return _shut("the critic approved it, and auto-approval is off")
+        return _shut("the critic approved it by a rule that no longer holds")
     if mode is not Mode.EXECUTE_APPROVED:
         return _shut("the mode is propose only")
     if lifecycle is not Lifecycle.RUNNING:

@@ -134,7 +134,8 @@ def values_of(counters: Counters, predicted_feedback: float, label: int) -> dict
     """What a metric point holds beside the learner's own values.
 
     good_share: of all counted feedback, 0 to 1. violation_ratio: violations over decision steps, which are proposals
-    that were judged; one feedback judges one proposal as long as one trainer decides. The critic's own count too.
+    that were judged; one feedback judges one proposal as long as one trainer decides. The critic's count once they
+    move.
     """
     decisions = counters.feedback + counters.auto_approved
     return {

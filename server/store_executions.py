@@ -8,7 +8,7 @@ from sqlalchemy import select
 from sqlalchemy.orm import Session
 
 from robot_adapters.base import SafetyViolation
-from server import gate, schemas, schemas_trust
+from server import gate, schemas, schemas_trust, store_trust
 from server.models import ExecutionRow, ExperimentRow, ProposalRow, ViolationRow
 from server.store_errors import Conflict, NotFound
 from server.store_experiments import journal, load, now
@@ -60,6 +60,7 @@ def begin(
     session.add(row)
     if proposal.purpose == "training":
         experiment.executions += 1
+        experiment.auto_approved += _by_critic(proposal)
         experiment.updated_at = now()
     session.flush()
     journal(session, experiment.id, "execution_started", execution=row.id, proposal=proposal_id, digest=proposal.digest)
@@ -149,8 +150,8 @@ def _decide(
         )
     return gate.decide(
         mode=schemas.Mode(experiment.mode),
-        by_critic=proposal.verdict_source == schemas_trust.VerdictSource.CRITIC.value,
-        auto_approval=experiment.auto_approval is not None,
+        by_critic=_by_critic(proposal),
+        auto_approval=store_trust.holds(experiment, proposal),
         verdict=verdict,
         lifecycle=lifecycle,
         halted=experiment.halted,
@@ -159,3 +160,7 @@ def _decide(
         workspace_ok=workspace_ok,
         observation_current=observation_current,
     )
+
+
+def _by_critic(proposal: ProposalRow) -> bool:
+    return proposal.verdict_source == schemas_trust.VerdictSource.CRITIC.value

@@ -93,12 +93,11 @@ def consider(session: Session, proposal_id: int, *, simulated: bool) -> Consider
     """
     proposal = load_proposal(session, proposal_id)
     experiment = load(session, proposal.experiment_id)
-    rule = _rule(experiment)
+    rule = _rule(experiment) if holds(experiment, proposal) else None
     asked = Considered(Decision.ASK, proposal_wire(proposal))
     touched = select(FeedbackRow.id).where(FeedbackRow.proposal_id == proposal_id).limit(1)
     if (
         rule is None
-        or experiment.auto_approval_suspended is not None
         or state(experiment) != lifecycle.State(Lifecycle.RUNNING)
         or proposal.closed_at is not None
         or proposal.purpose != "training"
@@ -126,8 +125,6 @@ def consider(session: Session, proposal_id: int, *, simulated: bool) -> Consider
         proposal.audit = True
     else:
         judge(proposal, Verdict.GOOD, VerdictSource.CRITIC)
-        experiment.auto_approved += 1
-        experiment.updated_at = now()
     session.flush()
     journal(
         session,
@@ -142,6 +139,12 @@ def consider(session: Session, proposal_id: int, *, simulated: bool) -> Consider
         rule=rule.model_dump(),
     )
     return Considered(decision, proposal_wire(proposal))
+
+
+def holds(experiment: ExperimentRow, proposal: ProposalRow) -> bool:
+    """Whether the experiment's rule covers this proposal: it is on, and was set before the proposal was opened."""
+    on = experiment.auto_approval is not None and experiment.auto_approval_suspended is None
+    return on and proposal.number > experiment.auto_approval_since
 
 
 def _rule(experiment: ExperimentRow) -> AutoApproval | None:

@@ -106,7 +106,7 @@ async def test_an_approval_is_a_stored_verdict_of_the_critic_and_no_feedback(sto
     assert (await store.feedback_of_proposal(proposal.id)).items == []
     assert len(await store.labels(experiment_id)) == 1
     counters = (await store.experiment(experiment_id)).counters
-    assert (counters.auto_approved, counters.feedback, counters.good) == (1, 1, 1)
+    assert (counters.auto_approved, counters.feedback, counters.good) == (0, 1, 1)  # nothing has come of it yet
     (event,) = await journal(store, experiment_id, "auto_approved")
     assert event["proposal"] == proposal.id
     assert event["digest"] == proposal.digest
@@ -119,12 +119,19 @@ async def test_an_approval_is_a_stored_verdict_of_the_critic_and_no_feedback(sto
     decision, execution = await begun(store, proposal.id)
     assert decision.allowed
     assert execution.parameters == proposal.parameters
+    assert (await store.experiment(experiment_id)).counters.auto_approved == 1
+    assert (await store.auto_approvals(experiment_id)).approved == 1
+    # asked again, nothing more moves and nothing more is counted
+    assert (await begun(store, proposal.id))[1] is None
+    assert (await store.experiment(experiment_id)).counters.auto_approved == 1
 
 
-async def test_the_gate_shuts_the_critic_out_on_a_real_robot_and_without_a_rule(store: Store) -> None:
+async def test_the_gate_shuts_the_critic_out_on_a_real_robot_and_without_the_rule_it_approved_by(store: Store) -> None:
     cases: tuple[tuple[dict[str, Any], ExperimentUpdate | None], ...] = (
         ({"simulated": False, "operator_present": True}, None),
         ({}, ExperimentUpdate.model_validate({"auto_approval": None})),
+        # stricter by now: what met the old rule is no approval by this one
+        ({}, ExperimentUpdate.model_validate({"auto_approval": NEVER_AUDITED | {"predicted_at_least": 1.0}})),
     )
     for fields, change in cases:
         experiment_id = await ruled(store, **NEVER_AUDITED)
@@ -136,6 +143,39 @@ async def test_the_gate_shuts_the_critic_out_on_a_real_robot_and_without_a_rule(
         assert not decision.allowed
         assert "critic" in decision.reason
         assert execution is None
+        assert (await store.auto_approvals(experiment_id)).approved == 0  # nothing has moved by it
+
+
+async def test_the_gate_shuts_the_critic_out_once_its_rule_is_suspended(store: Store) -> None:
+    experiment_id = await ruled(store, **NEVER_AUDITED | {"audit_every": 2})
+    approved, audited = [], 0
+    # the first robot's approval waits for the gate, while audits at the second one go against the critic
+    while not approved or not audited:
+        proposal = await sure(store, experiment_id)
+        decision = (await store.consider(proposal.id, simulated=True)).decision
+        assert decision is not Decision.ASK
+        if decision is Decision.APPROVE:
+            approved.append(proposal)
+        else:
+            audited += 1
+            await store.submit_feedback(proposal.id, click(-1))
+    following = await sure(store, experiment_id)
+    considered = await store.consider(following.id, simulated=True)
+    assert considered.suspended
+    decision, execution = await begun(store, approved[-1].id)
+    assert (decision.allowed, execution) == (False, None)
+    assert "critic" in decision.reason
+    assert (await store.auto_approvals(experiment_id)).approved == 0
+
+
+async def test_a_rule_covers_the_proposals_that_open_once_it_is_set(store: Store) -> None:
+    experiment_id = await ruled(store, **NEVER_AUDITED)
+    waiting = await sure(store, experiment_id)
+    await store.update_experiment(experiment_id, ExperimentUpdate(auto_approval=AutoApproval(**NEVER_AUDITED)))
+    assert (await store.consider(waiting.id, simulated=True)).decision is Decision.ASK
+    await store.submit_feedback(waiting.id, click(1))
+    proposal = await sure(store, experiment_id)
+    assert (await store.consider(proposal.id, simulated=True)).decision is Decision.APPROVE
 
 
 async def test_who_is_not_asked_for_approves_nothing(store: Store) -> None:

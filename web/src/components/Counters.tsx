@@ -5,7 +5,7 @@ export function goodShare({ feedback, good }: { feedback: number; good: number }
   return feedback === 0 ? "–" : `${Math.round((100 * good) / feedback)} %`;
 }
 
-/** Violations over decision steps, which are proposals that were judged, by trainers or by the critic. */
+/** Violations over decision steps, which are proposals that trainers judged, and motions that the critic approved. */
 export function violationRatio(
   counters: Pick<Experiment["counters"], "feedback" | "auto_approved" | "violations">,
 ) {
