@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import StrEnum
 from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field, StrictInt
+from pydantic import BaseModel, ConfigDict, Field, StrictFloat, StrictInt
 
 
 class _Wire(BaseModel):
@@ -32,10 +32,10 @@ class AutoApproval(_Wire):
     """When the critic may approve a proposal by itself. Simulated robots only; the critics must be two or more."""
 
     predicted_at_least: Annotated[
-        float, Field(ge=0, le=1, allow_inf_nan=False, description="least predicted feedback")
+        StrictFloat, Field(ge=0, le=1, allow_inf_nan=False, description="least predicted feedback")
     ] = 0.9
     uncertainty_at_most: Annotated[
-        float, Field(ge=0, le=2, allow_inf_nan=False, description="most disagreement of the critics")
+        StrictFloat, Field(ge=0, le=2, allow_inf_nan=False, description="most disagreement of the critics")
     ] = 0.1
     after_feedback: Annotated[
         StrictInt, Field(ge=1, le=1_000_000, description="feedback that must be stored before")
@@ -45,7 +45,7 @@ class AutoApproval(_Wire):
         Field(ge=1, le=100, description="one of so many qualifying proposals goes to a trainer anyway; 1: all of them"),
     ] = 10
     agreement_at_least: Annotated[
-        float,
+        StrictFloat,
         Field(
             ge=0.5,
             le=1,
@@ -62,7 +62,7 @@ class AutoApprovalRecord(_Wire):
     experiment_id: int
     rule: Annotated[AutoApproval | None, Field(description="null: off")]
     suspended: Suspended
-    approved: Annotated[int, Field(description="proposals approved by the critic, since the experiment began")]
+    approved: Annotated[int, Field(description="motions by the critic's own approval, since the experiment began")]
     audited: Annotated[int, Field(description="newest audits that trainers judged, since the rule was set")]
     agreed: Annotated[int, Field(description="those of them that trainers called good")]
     agreement: Annotated[float | None, Field(description="agreed / audited; null before the first audit")]

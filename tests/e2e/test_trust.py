@@ -54,7 +54,7 @@ def test_the_critic_is_shown_with_its_doubts_and_may_approve_once_asked_to(
     assert service.get(trainer.path)["auto_approval"]["after_feedback"] == 50
     service.http.patch(f"/api/v1{trainer.path}", json={"auto_approval": RULE}).raise_for_status()
     trainer.press(-1)
-    expect(trainer.test_id("auto-approval")).to_contain_text(re.compile(r"[1-9]\d* approved by the critic"))
+    expect(trainer.test_id("auto-approval")).to_contain_text(re.compile(r"[1-9]\d* motions? approved by the critic"))
 
     # an audit waits for a trainer, who disagrees: it ends by itself
     wait_for(lambda: service.get(f"{trainer.path}/proposals?limit=1")["items"][0]["audit"], "an audit")

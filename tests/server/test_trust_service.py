@@ -59,7 +59,18 @@ async def test_only_a_simulated_robot_and_an_ensemble_may_have_a_rule(live: Serv
     ):
         told = check_problem(await live.http.post("/api/v1/experiments", json=body | changes), 422)
         assert [field.field for field in told.fields] == ["auto_approval"], changes
-    for wrong in ({"audit_every": 0}, {"audit_every": 101}, {"predicted_at_least": 1.5}, {"uncertainty_at_most": -1}):
+    wrongs: tuple[dict[str, Any], ...] = (
+        {"audit_every": 0},
+        {"audit_every": 101},
+        {"predicted_at_least": 1.5},
+        {"uncertainty_at_most": -1},
+        # no number is made of what is none
+        {"predicted_at_least": True},
+        {"predicted_at_least": "0.5"},
+        {"uncertainty_at_most": "0.1"},
+        {"agreement_at_least": True},
+    )
+    for wrong in wrongs:
         told = check_problem(await live.http.post("/api/v1/experiments", json=body | {"auto_approval": wrong}), 422)
         assert next(iter(wrong)) in told.fields[0].field
 

@@ -1235,7 +1235,7 @@ export interface components {
             suspended: string | null;
             /**
              * Approved
-             * @description proposals approved by the critic, since the experiment began
+             * @description motions by the critic's own approval, since the experiment began
              */
             approved: number;
             /**
@@ -2419,7 +2419,9 @@ export interface components {
         };
         /**
          * StudyCurve
-         * @description The mean of the seeds begun so far at common points; sem: its standard error, null from one seed.
+         * @description The mean at common points of the seeds that are about as far as each other; sem: its standard error.
+         *
+         *     seeds: how many they are, of those `planned`; sem is null from one seed.
          */
         StudyCurve: {
             /** Algorithm */
@@ -2428,6 +2430,8 @@ export interface components {
             title: string;
             /** Seeds */
             seeds: number;
+            /** Planned */
+            planned: number;
             /** X */
             x: number[];
             /** Mean */
@@ -2496,7 +2500,7 @@ export interface components {
         };
         /**
          * StudyScenario
-         * @description A task as one figure looks at it: its caption, our curves and the paper's.
+         * @description A task as one figure looks at it: our curves, the paper's, and a caption for means and standard errors.
          */
         StudyScenario: {
             /** Name */

@@ -167,7 +167,7 @@ describe("auto-approval", () => {
     const on = experiment({ ...ensemble, auto_approval: RULE, counters: { ...counters, auto_approved: 12 } });
     await show(<AutoApprovalCard experiment={on} record={record()} onAsk={vi.fn()} onSet={set} />);
     expect(byTestId("auto-approval").textContent).toBe(
-      "12 approved by the criticTrainers agreed with 9 of 10 checked (95 % interval 60 % to 98 %).",
+      "12 motions approved by the criticTrainers agreed with 9 of 10 checked (95 % interval 60 % to 98 %).",
     );
     expect(document.body.textContent).toContain("predicted +0.90 or more, ±\u00a00.10 or less");
     await act(async () => byTestId("auto-approval-off").click());
@@ -196,6 +196,42 @@ describe("auto-approval", () => {
     await act(async () => byTestId("auto-approval-on").click());
     asked[0]?.act();
     expect(set).toHaveBeenCalledWith({ ...RULE, audit_every: 3 }); // the same rule, not the first one
+  });
+
+  it("is turned on again by the rule that was turned off, also after a reload", async () => {
+    localStorage.clear();
+    const custom = { ...RULE, predicted_at_least: 0.7, audit_every: 3 };
+    const asked: Question[] = [];
+    const set = vi.fn();
+    const showAs = (id: number, rule: typeof custom | null) =>
+      show(
+        <AutoApprovalCard
+          key={`${id} ${rule === null}`}
+          experiment={experiment({ ...ensemble, id, auto_approval: rule })}
+          record={null}
+          onAsk={(question) => asked.push(question)}
+          onSet={set}
+        />,
+      );
+    await showAs(1, custom);
+    await act(async () => byTestId("auto-approval-off").click());
+    await showAs(1, null);
+    await act(async () => byTestId("auto-approval-on").click());
+    expect(asked[0]?.text).toContain("predicted +0.70 or more");
+    asked[0]?.act();
+    expect(set).toHaveBeenLastCalledWith(custom);
+
+    await showAs(2, null); // another experiment has a rule of its own
+    await act(async () => byTestId("auto-approval-on").click());
+    asked[1]?.act();
+    expect(set).toHaveBeenLastCalledWith(RULE);
+    for (const rubbish of ["{", "[1]", '{"audit_every":"3"}']) {
+      localStorage.setItem("seed.auto-approval.2", rubbish);
+      await act(async () => byTestId("auto-approval-on").click());
+      asked.at(-1)?.act();
+      expect(set).toHaveBeenLastCalledWith(RULE);
+    }
+    localStorage.clear();
   });
 
   it("is said while the robot moves by it", () => {

@@ -1,5 +1,6 @@
 // Letting the critic approve by itself, in simulation only: on or off, what it has approved, how trainers agreed.
 import * as http from "../http";
+import { lastRule, rememberRule } from "../lastRule";
 import { useLatest } from "../useLatest";
 import type { AutoApproval, AutoApprovalRecord, Experiment } from "../wire";
 import { signed } from "./Calibration";
@@ -48,7 +49,7 @@ export function ruleIn(rule: AutoApproval): string {
 }
 
 function turnOn({ experiment, onSet }: AutoApprovalProps): Question {
-  const rule = { ...FIRST_RULE, ...experiment.auto_approval };
+  const rule = { ...FIRST_RULE, ...(experiment.auto_approval ?? lastRule(experiment.id)) };
   return {
     title: "Let the critic approve by itself?",
     text:
@@ -73,7 +74,7 @@ export function AutoApprovalCard(props: AutoApprovalProps & { record: AutoApprov
         <div className="result" data-testid="auto-approval" data-on={on}>
           {on || suspended || approved > 0 ? (
             <>
-              <b className="number">{`${approved} approved by the critic`}</b>
+              <b className="number">{`${approved} ${approved === 1 ? "motion" : "motions"} approved by the critic`}</b>
               {record && <div className="soft">{agreementIn(record)}</div>}
             </>
           ) : (
@@ -85,7 +86,10 @@ export function AutoApprovalCard(props: AutoApprovalProps & { record: AutoApprov
             type="button"
             className="button"
             data-testid="auto-approval-off"
-            onClick={() => onSet(null)}
+            onClick={() => {
+              if (experiment.auto_approval) rememberRule(experiment.id, experiment.auto_approval);
+              onSet(null);
+            }}
           >
             Turn off
           </button>
