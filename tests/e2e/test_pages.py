@@ -139,7 +139,10 @@ def test_axe_finds_no_violation(
     proposal = trainer.drawn()
     trainer.press(-1)
     trainer.drawn(proposal)
-    accessible(page)
+    trainer.looked_at()
+    for button in ("good", "neutral", "bad"):
+        trainer.test_id(button).hover()
+        accessible(page)
     trainer.test_id("finish").click()
     expect(page.get_by_role("dialog")).to_be_visible()
     accessible(page)
