@@ -201,7 +201,9 @@ def _alone_back(passed: list[Tensor], weights: Weights, gradient: Tensor, into: 
     for i in reversed(range(len(passed))):
         x, target = passed[i], into.weights[i]
         if gradient.shape[-1] <= NARROW:
-            torch.addmm(target.t(), gradient.t(), x, beta=kept, out=target.t())
+            # apart: written straight to the target, which lies the other way, the product takes four times as long
+            product = (gradient.t() @ x).t()
+            target.add_(product) if add else target.copy_(product)
         elif x.shape[-1] * gradient.numel() < LARGE:
             torch.addmm(target, x.t(), gradient, beta=kept, out=target)
         else:

@@ -268,13 +268,14 @@ def _quickest(net: _Net) -> Callable[[], object]:
                     else partial(torch.mm, weight.t(), x.t())
                 )
                 if depth:
+                    narrow_back = torch.mul if o == 1 else torch.mm
                     asked.append(
                         partial(kernels._onednn, gradient, weight, None, "none")
                         if wide
-                        else partial(torch.mm, gradient, weight.t())
+                        else partial(narrow_back, gradient, weight.t())
                     )
                 elif not learnt:
-                    asked.append(partial(torch.mm, gradient, weight[-WIDTH:].t()))
+                    asked.append(partial(torch.mm, weight[-WIDTH:], gradient.t()))
                 if learnt:
                     large = wide and rows * i * o >= kernels.LARGE
                     narrow = (
