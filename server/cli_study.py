@@ -200,6 +200,8 @@ def _run(name: str, plan: Callable[[], Plan], given: Mapping[str, Any], place: P
         _give_up("interrupted: every run goes on from its last evaluation", again, INTERRUPTED)
     for run, why in done.failed.items():
         _stderr.print(f"[bold red]failed:[/] {run}: {why}", soft_wrap=True)
+    for warning in done.warnings:
+        _stderr.print(f"[bold yellow]warning:[/] {warning}", soft_wrap=True)
     if as_json:
         typer.echo(json.dumps(done.told()))
     else:

@@ -48,11 +48,15 @@ class StudyRun(Wire):
 
 
 class StudyCurve(Wire):
-    """The mean of the seeds begun so far at common points; sem: its standard error, null from one seed."""
+    """The mean at common points of the seeds that are about as far as each other; sem: its standard error.
+
+    seeds: how many they are, of those `planned`; sem is null from one seed.
+    """
 
     algorithm: str
     title: str
     seeds: int
+    planned: int
     x: list[float]
     mean: list[float]
     sem: list[float | None]
@@ -69,7 +73,7 @@ class StudyPaperCurve(Wire):
 
 
 class StudyScenario(Wire):
-    """A task as one figure looks at it: its caption, our curves and the paper's."""
+    """A task as one figure looks at it: our curves, the paper's, and a caption for means and standard errors."""
 
     name: str
     title: str

@@ -12,7 +12,7 @@ import numpy as np
 from agent.study import paper
 from agent.study.algorithms import CONTESTANTS
 from agent.study.curves import study_curve
-from agent.study.figures import caption
+from agent.study.figures import explained
 from agent.study.plan import Plan, Run, Scenario, StudyError
 from agent.study.records import FIGURES, RESULTS, TABLE, Folder, Progress
 from server.errors import ServiceError
@@ -117,6 +117,7 @@ def _scenario(folder: Folder, plan: Plan, scenario: Scenario) -> StudyScenario:
                 algorithm=contestant.name,
                 title=contestant.title,
                 seeds=n,
+                planned=len(plan.of(scenario.name, contestant.name)),
                 x=found.x.tolist(),
                 mean=found.values.mean(axis=0).tolist(),
                 sem=[None] * len(found.x) if sem is None else sem.tolist(),
@@ -137,7 +138,7 @@ def _scenario(folder: Folder, plan: Plan, scenario: Scenario) -> StudyScenario:
         title=scenario.title,
         axis=scenario.axis.value,
         measure=scenario.measure.value,
-        caption=caption(plan, scenario),
+        caption=f"Lines: mean of the seeds; thin lines: one standard error away. {explained(folder, plan, scenario)}",
         curves=curves,
         paper=theirs,
     )

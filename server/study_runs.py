@@ -15,6 +15,7 @@ from rich.console import Console
 
 from agent.study.execution import execute
 from agent.study.figures import write_figures
+from agent.study.oracle import oracle_of
 from agent.study.plan import Plan, StudyError
 from agent.study.records import Folder, Progress
 from agent.study.results import Outcome, write_results
@@ -49,6 +50,8 @@ class Finished:
     outcomes: list[Outcome]
     figures: list[str]
     seconds: float
+    warnings: list[str]
+    """What takes from the results' worth."""
 
     @property
     def failed(self) -> dict[str, str]:
@@ -65,6 +68,7 @@ class Finished:
             "failed": len(self.failed),
             "seconds": round(self.seconds, 3),
             "figures": self.figures,
+            "warnings": self.warnings,
             "results": [_told(each) for each in self.outcomes],
         }
 
@@ -92,7 +96,9 @@ def run_study(
         finally:  # an interrupted study, too, shows what it has
             outcomes = write_results(folder, chosen)
             figures = write_figures(folder, chosen)
-    return Finished(chosen, folder.path, ended, outcomes, figures, time.monotonic() - began)
+    judges = [oracle_of(folder, chosen, scenario) for scenario in chosen.scenarios]
+    warnings = [f"{each.run.scenario.name}: {each.told()}" for each in judges if each and each.poor]
+    return Finished(chosen, folder.path, ended, outcomes, figures, time.monotonic() - began, warnings)
 
 
 def _planned_before(name: str, folder: Folder, given: Mapping[str, Any]) -> Plan:

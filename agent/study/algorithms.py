@@ -64,6 +64,8 @@ class Builders:
     """A robot with the task of this name, on which skills are executed."""
     low_level: Callable[[str], Env]
     """The same commanded step by step."""
+    without_physics: Callable[[str], Env]
+    """The same where commands are carried out exactly: quicker, and fresh policies come across the reward."""
 
 
 def course(run: Run, builders: Builders, folder: Path, oracle: Path | None) -> Course:
@@ -149,7 +151,8 @@ def _stage(run: Run, builders: Builders, folder: Path) -> Stage:
 def _low_level_stage(run: Run, builders: Builders) -> tuple[LowLevelStage, Array, Array, int]:
     """The environments, usual bounds of the state (n,), and the size of an action."""
     name = run.scenario.task
-    stage = LowLevelStage(builders.low_level(name), builders.low_level(name), run.seed)
+    train_in = builders.without_physics if run.without_physics else builders.low_level
+    stage = LowLevelStage(train_in(name), builders.low_level(name), run.seed)
     low, high = state_bounds(low_level_fields(builders.task(name)))
     shape = stage.env.action_space.shape
     assert shape is not None

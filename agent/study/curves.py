@@ -1,4 +1,7 @@
-"""One curve of several seeds: what each had last reached at common points, no further than all of them came."""
+"""One curve of several seeds: what each had last reached at common points, no further than all of them came.
+
+Runs that are far behind the others are not in it, or each seed that begins would take back the curve to its start.
+"""
 
 from __future__ import annotations
 
@@ -54,6 +57,16 @@ def curve(runs: Sequence[Sequence[Row]], axis: Axis, measure: Measure, points: i
 def study_curve(
     folder: Folder, plan: Plan, scenario: str, contestant: str, *, axis: Axis, measure: Measure
 ) -> Curve | None:
-    """The curve of one contestant, of those of its runs that were begun."""
+    """The curve of one contestant, of those of its runs that are about as far as each other."""
     rows = [folder.rows(run.id) for run in plan.of(scenario, contestant)]
-    return curve([each for each in rows if each], axis, measure)
+    return curve(abreast(rows, plan.protocol.evaluations), axis, measure)
+
+
+def abreast(runs: Sequence[Sequence[Row]], evaluations: int) -> list[Sequence[Row]]:
+    """The runs that can be one curve: those at their end; before one is, at least half as far as the farthest.
+
+    evaluations: how many a run has at its end, beside the one before it.
+    """
+    farthest = max((rows[-1].evaluation for rows in runs if rows), default=0)
+    least = farthest if farthest == evaluations else farthest / 2
+    return [rows for rows in runs if rows and rows[-1].evaluation >= least]

@@ -12,7 +12,7 @@ from agent.study.algorithms import CONTESTANTS
 from agent.study.curves import Curve, study_curve
 from agent.study.plan import Axis, Contestant, Measure, Plan, Scenario
 from agent.study.records import FIGURES, Folder
-from agent.study.results import UNIT, budget_note
+from agent.study.results import UNIT, about
 from agent.study.statistics import CONFIDENCE, summaries
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ def write_figures(folder: Folder, plan: Plan) -> list[str]:
             drawn = [_draw(panel, folder, plan, scenario, axis) for panel, axis in zip(panels[0], axes_of, strict=True)]
             if any(drawn):
                 figure.suptitle(f"{scenario.title}, {plan.adapter}", fontsize=12)
-                figure.supxlabel(caption(plan, scenario, 78 * len(axes_of)), fontsize=8, color="#444444")
+                figure.supxlabel(caption(folder, plan, scenario, 78 * len(axes_of)), fontsize=8, color="#444444")
                 for suffix in ("png", "svg"):
                     name = f"{scenario.name}.{suffix}"
                     figure.savefig(target / name, dpi=150, metadata={"Date": None} if suffix == "svg" else None)
@@ -60,15 +60,19 @@ def write_figures(folder: Folder, plan: Plan) -> list[str]:
     return written
 
 
-def caption(plan: Plan, scenario: Scenario, width: int = 0) -> str:
-    """What a figure shows, from what, and where the paper's values are from; in lines of at most `width` if given."""
-    text = (
-        f"Solid: interquartile mean of the seeds; band: {CONFIDENCE:.0%} bootstrap interval; a curve ends where its "
-        f"first seed did. {budget_note(plan, scenario)}"
-    )
+def caption(folder: Folder, plan: Plan, scenario: Scenario, width: int) -> str:
+    """What a figure shows, from what, and where the paper's values are from; in lines of at most `width`."""
+    drawn = f"Solid: interquartile mean of the seeds; band: {CONFIDENCE:.0%} bootstrap interval."
+    return "\n".join(textwrap.wrap(f"{drawn} {explained(folder, plan, scenario)}", width))
+
+
+def explained(folder: Folder, plan: Plan, scenario: Scenario) -> str:
+    """What holds for a scenario's curves however they are drawn."""
+    ends = "A curve ends where its first seed did; seeds far behind the others aren't in it yet."
+    text = f"{ends} {about(folder, plan, scenario)}"
     if paper.curves(scenario.name):
         text += f" Dashed, behind: the paper's figure ({paper.note(scenario.name)}), read off by eye, ±3 %."
-    return "\n".join(textwrap.wrap(text, width)) if width else text
+    return text
 
 
 def _axes_of(scenario: Scenario) -> tuple[Axis, ...]:
@@ -96,7 +100,9 @@ def _draw(panel: Axes, folder: Folder, plan: Plan, scenario: Scenario, axis: Axi
         panel.plot(theirs.x, theirs.y, "--", color=colour, alpha=0.5, lw=1.6, marker=".", ms=7, zorder=1, label=label)
     for contestant in plan.contestants:
         if contestant.name in ours:
-            _draw_ours(panel, plan, contestant, ours[contestant.name], logarithmic=logarithmic)
+            seeds, planned = ours[contestant.name].seeds, len(plan.of(scenario.name, contestant.name))
+            label = f"{contestant.title} (n = {seeds}{f' of {planned}' if seeds < planned else ''})"
+            _draw_ours(panel, plan, contestant, ours[contestant.name], label, logarithmic=logarithmic)
     if logarithmic:
         panel.set_xscale("log")
     else:
@@ -119,7 +125,7 @@ def _draw(panel: Axes, folder: Folder, plan: Plan, scenario: Scenario, axis: Axi
     return bool(ours)
 
 
-def _draw_ours(panel: Axes, plan: Plan, contestant: Contestant, curve: Curve, *, logarithmic: bool) -> None:
+def _draw_ours(panel: Axes, plan: Plan, contestant: Contestant, curve: Curve, label: str, *, logarithmic: bool) -> None:
     shown = curve.x > 0 if logarithmic else np.ones(len(curve.x), dtype=bool)
     if not shown.any():
         return
@@ -127,7 +133,6 @@ def _draw_ours(panel: Axes, plan: Plan, contestant: Contestant, curve: Curve, *,
     index = _index(plan, contestant.name)
     colour = COLOURS[index % len(COLOURS)]
     marker = MARKERS[(index + index // len(COLOURS)) % len(MARKERS)]  # no two have both in common
-    label = f"{contestant.title} (n = {curve.seeds})"
     middle, every = [t.iqm for t in told], max(1, len(x) // 8)
     marked = (index % every, every)  # where curves lie on each other their markers don't
     panel.plot(x, middle, color=colour, lw=2, marker=marker, ms=5, markevery=marked, zorder=3, label=label)

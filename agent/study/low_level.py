@@ -50,7 +50,7 @@ class Observe(Protocol):
 
 @dataclass(frozen=True)
 class LowLevelStage:
-    """Two environments alike: one to train in, one to be evaluated in."""
+    """One environment to train in, one to be evaluated in: of the same states and actions."""
 
     env: Env
     judged_in: Env

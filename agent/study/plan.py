@@ -156,6 +156,8 @@ class Run(Frozen):
     """Ends the run too where the budget is low-level steps: a rejected skill moves nothing and costs none."""
     oracle: str | None = None
     """Id of the run whose learner judges this one's actions."""
+    without_physics: bool = False
+    """It learns where there is no physics, and is evaluated on the plan's adapter all the same."""
     shown: bool = True
     """False for a run that only makes an oracle."""
 
@@ -188,6 +190,9 @@ class Plan(Frozen):
         )
 
 
+ORACLE_STEPS = 8000
+"""Least budget of a learner that judges: twice what the preset `quick` of SAC takes to learn Reaching without physics
+(docs/baselines.md)."""
 STEPS_OF_A_SKILL = 5
 """Low-level steps of the shortest skills here, reaches of some centimetres (the paper: typically around 100). A run of
 judged skills may take as many decisions as its budget would pay if every one were that short and executed."""
@@ -202,11 +207,13 @@ def planned(
     budgets: Mapping[str, int],
     protocol: Protocol,
     oracle: Contestant,
+    oracle_steps: int = ORACLE_STEPS,
 ) -> Plan:
     """The runs of a study, seed by seed: what is interrupted has something of everything.
 
     budgets: scenario -> budget; the usual one where it is silent. oracle: the learner that judges low-level actions; it
-    is trained first, from the first seed, on the same task with the same budget.
+    is trained first, from the first seed, on the same task without physics, as long as those whom it judges and for
+    `oracle_steps` at least: with physics it would never meet the reward (docs/baselines.md).
 
     Raises:
         StudyError: nothing is left to run, or a budget is below 1.
@@ -216,7 +223,9 @@ def planned(
         budget = budgets.get(scenario.name, scenario.usual_budget)
         if budget < 1:
             raise StudyError(f"the budget of {scenario.name} is {budget}", remedy="give a budget of 1 or more")
-        judge = _run(oracle, scenario, seeds[0], budget).model_copy(update={"shown": False})
+        judge = _run(oracle, scenario, seeds[0], max(budget, oracle_steps)).model_copy(
+            update={"shown": False, "without_physics": True}
+        )
         if any(each.kind == "low_level_feedback" for each in contestants):
             runs.append(judge)
         for contestant in contestants:

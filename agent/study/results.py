@@ -11,6 +11,7 @@ import numpy as np
 from agent.study import paper
 from agent.study.curves import value_of
 from agent.study.evaluations import Row
+from agent.study.oracle import oracle_of
 from agent.study.plan import Axis, Contestant, Measure, Plan, Scenario
 from agent.study.records import RESULTS, TABLE, Folder, Progress
 from agent.study.statistics import CONFIDENCE, Summary, summary
@@ -79,7 +80,7 @@ def write_results(folder: Folder, plan: Plan) -> list[Outcome]:
     """Write both files; what they tell."""
     found = outcomes(folder, plan)
     _write_csv(folder, plan)
-    (folder.path / TABLE).write_text(_tables(plan, found), "utf-8")
+    (folder.path / TABLE).write_text(_tables(folder, plan, found), "utf-8")
     return found
 
 
@@ -94,6 +95,12 @@ def budget_note(plan: Plan, scenario: Scenario) -> str:
         f"Budget {budget:,} {unit} a run{papers}; {len(plan.seeds)} seed{'s' if len(plan.seeds) > 1 else ''}; "
         f"{plan.adapter} adapter; {protocol.evaluations} evaluations of {protocol.rollouts} rollouts."
     )
+
+
+def about(folder: Folder, plan: Plan, scenario: Scenario) -> str:
+    """`budget_note`, and who judges low-level actions if anybody does."""
+    oracle = oracle_of(folder, plan, scenario)
+    return budget_note(plan, scenario) + (f" {oracle.told()}" if oracle else "")
 
 
 def _summary(rows: Sequence[Row], measure: Measure) -> Summary:
@@ -114,13 +121,13 @@ def _write_csv(folder: Folder, plan: Plan) -> None:
             writer.writerow([*names, progress.state, *counts, progress.success_rate, progress.seconds])
 
 
-def _tables(plan: Plan, found: Sequence[Outcome]) -> str:
+def _tables(folder: Folder, plan: Plan, found: Sequence[Outcome]) -> str:
     """Markdown: for each scenario what each contestant came to, then the safety violations."""
     lines = [f"# {plan.name}", ""]
     for scenario in plan.scenarios:
-        about = [each for each in found if each.scenario.name == scenario.name]
-        lines += [f"## {scenario.title}", "", budget_note(plan, scenario), ""]
-        if not about:
+        rows = [each for each in found if each.scenario.name == scenario.name]
+        lines += [f"## {scenario.title}", "", about(folder, plan, scenario), ""]
+        if not rows:
             lines += ["Nothing was measured yet.", ""]
             continue
         interval = f"interquartile mean [{CONFIDENCE:.0%} bootstrap]"
@@ -129,7 +136,7 @@ def _tables(plan: Plan, found: Sequence[Outcome]) -> str:
             f"training, mean ± SEM | {interval} | decisions to {REACHED:.0%} | the paper's last value |",
             "|---|---|---|---|---|---|---|---|---|",
         ]
-        lines += [_line(each) for each in about] + [""]
+        lines += [_line(each) for each in rows] + [""]
     lines += [
         "## Safety violations over decision steps",
         "",

@@ -11,6 +11,8 @@ from robot_adapters.base import Adapter
 from robot_adapters.kinematic import KinematicSettings
 from robot_adapters.tasks.base import Task
 
+WITHOUT_PHYSICS = "kinematic"
+
 
 def builders(adapter: str) -> Builders:
     """Everything on this adapter. It can be sent to another process.
@@ -19,7 +21,9 @@ def builders(adapter: str) -> Builders:
         UnknownName: there is no such adapter.
     """
     registry.adapter(adapter)
-    return Builders(registry.task, partial(_robot, adapter), partial(_environment, adapter))
+    return Builders(
+        registry.task, partial(_robot, adapter), partial(_environment, adapter), partial(_environment, WITHOUT_PHYSICS)
+    )
 
 
 def any_task(task: Task) -> Adapter:

@@ -25,14 +25,15 @@ def test_a_study_is_watched_live(page: Page, own_service: LiveService) -> None:
         second = page.locator("[data-id='first_subgoal-seed-11']")
         expect(second).to_contain_text("25 %")
         chart = page.get_by_test_id("study-chart")
-        expect(chart).to_have_attribute("data-points", "2")
+        expect(chart).to_have_attribute("data-points", "5")
+        expect(page.get_by_test_id("scenario")).to_contain_text("SEED (1 of 2 seeds)")
         expect(chart.locator("canvas")).to_be_visible()
         expect(page.get_by_test_id("scenario")).to_contain_text("MAPLE-aff, paper")
 
         evaluate(folder, "first_subgoal-seed-11", [3, 8, 9], "finished")
         expect(second).to_have_attribute("data-state", "finished")
         expect(second).to_contain_text("90 %")
-        expect(chart).to_have_attribute("data-points", "5")
+        expect(page.get_by_test_id("scenario")).to_contain_text("SEED (2 seeds)")
     expect(page.get_by_test_id("study-state").first).to_have_text("interrupted")
     expect(page.get_by_text("--resume")).to_be_visible()
 

@@ -49,17 +49,21 @@ async def test_a_curve_is_the_mean_of_the_seeds_beside_the_papers(tmp_path: Path
         assert (scenario["axis"], scenario["measure"]) == ("decisions", "successes")
         assert "Budget 100 decisions a run (the paper's figure goes to 250); 2 seeds" in scenario["caption"]
         (curve,) = scenario["curves"]
-        assert (curve["algorithm"], curve["seeds"], curve["x"]) == ("seed", 2, [0, 25])
-        assert curve["mean"] == [0, 1]
-        assert curve["sem"] == [0, 1]  # of 2 and 0
+        # seed 11 has only begun: it doesn't take the curve of seed 10 back to its start
+        assert (curve["algorithm"], curve["seeds"], curve["planned"]) == ("seed", 1, 2)
+        assert (curve["x"], curve["mean"], curve["sem"]) == ([0, 25, 50, 75, 100], [0, 2, 4, 9, 10], [None] * 5)
+        assert "Lines: mean of the seeds" in scenario["caption"]
+        assert "bootstrap" not in scenario["caption"]
         assert [(each["algorithm"], each["y"]) for each in scenario["paper"]][:3] == [
             ("seed", [6]),
             ("seed", [9]),
             ("seed", [12]),
         ]
-        evaluate(folder, "first_subgoal-seed-11", [6], "running")
+        evaluate(folder, "first_subgoal-seed-11", [6, 7, 8], "finished")
         (scenario,) = (await at.http.get(address)).json()["scenarios"]
-        assert scenario["curves"][0]["mean"] == [0, 1, 5]
+        (curve,) = scenario["curves"]
+        assert (curve["seeds"], curve["mean"]) == (2, [0, 1, 5, 8, 9])
+        assert curve["sem"] == [0, 1, 1, 1, 1]  # half of what the two differ by
 
 
 async def test_figures_and_tables_can_be_had_and_nothing_else(tmp_path: Path) -> None:

@@ -25,6 +25,12 @@ const COUNT = 7;
 /** How many times further than another a curve may go before the axis is logarithmic. */
 const FAR = 4;
 
+/** A curve's name, and of how many seeds it is: those far behind the others aren't in it yet. */
+function labelOf(curve: StudyScenario["curves"][number]): string {
+  const seeds = curve.planned === 1 ? "seed" : "seeds";
+  return `${curve.title} (${curve.seeds}${curve.seeds < curve.planned ? ` of ${curve.planned}` : ""} ${seeds})`;
+}
+
 /** The paper's first, so that ours lie above them. */
 export function linesOf(scenario: StudyScenario): ChartLine[] {
   const told = new Set<string>();
@@ -35,14 +41,14 @@ export function linesOf(scenario: StudyScenario): ChartLine[] {
   });
   scenario.curves.forEach((curve, index) => {
     const color = COLORS[curve.algorithm] ?? index % COUNT;
-    const seeds = curve.seeds === 1 ? "1 seed" : `${curve.seeds} seeds`;
+    const label = labelOf(curve);
     const shifted = (sign: number) =>
       curve.mean.map((mean, at) => (curve.sem[at] == null ? null : mean + sign * Number(curve.sem[at])));
     if (curve.seeds > 1) {
       lines.push({ label: null, kind: "sem", color, x: curve.x, y: shifted(1) });
       lines.push({ label: null, kind: "sem", color, x: curve.x, y: shifted(-1) });
     }
-    lines.push({ label: `${curve.title} (${seeds})`, kind: "mean", color, x: curve.x, y: curve.mean });
+    lines.push({ label, kind: "mean", color, x: curve.x, y: curve.mean });
   });
   return lines;
 }
@@ -51,6 +57,25 @@ export function linesOf(scenario: StudyScenario): ChartLine[] {
 export function isLogarithmic(lines: ChartLine[]): boolean {
   const ends = lines.map((line) => line.x.at(-1) ?? 0).filter((end) => end > 0);
   return ends.length > 0 && Math.max(...ends) > FAR * Math.min(...ends);
+}
+
+/** In words, what the chart can't show: points without a place on its axis, and lines that lie under others. */
+export function notesOf(scenario: StudyScenario): string[] {
+  const notes: string[] = [];
+  if (isLogarithmic(linesOf(scenario))) {
+    const hidden = scenario.curves.filter((curve) => curve.x.every((x) => x === 0)).map(labelOf);
+    notes.push("The axis is logarithmic and has no 0: evaluations before any training aren't drawn.");
+    if (hidden.length > 0) notes.push(`Only at 0, a seed having executed nothing: ${hidden.join(", ")}.`);
+  }
+  const alike = new Map<string, string[]>();
+  for (const curve of scenario.paper) {
+    const line = JSON.stringify([curve.x, curve.y]);
+    alike.set(line, [...(alike.get(line) ?? []), curve.title]);
+  }
+  for (const titles of alike.values()) {
+    if (titles.length > 1) notes.push(`One line in the paper: ${titles.join(", ")}.`);
+  }
+  return notes;
 }
 
 /** All lines over the union of their points; null where a line has none. A logarithmic axis has no 0. */

@@ -1,6 +1,6 @@
 // What a study's chart draws: whose line is where, and how different lengths share one axis.
 import { describe, expect, it } from "vitest";
-import { chartData, isLogarithmic, linesOf } from "../src/studyLines";
+import { chartData, isLogarithmic, linesOf, notesOf } from "../src/studyLines";
 import type { StudyScenario } from "../src/wire";
 
 function scenario(end: number): StudyScenario {
@@ -11,8 +11,16 @@ function scenario(end: number): StudyScenario {
     measure: "success_rate",
     caption: "",
     curves: [
-      { algorithm: "seed", title: "SEED", seeds: 2, x: [0, end], mean: [0, 0.5], sem: [0, 0.1] },
-      { algorithm: "sac", title: "SAC", seeds: 1, x: [0, end / 2], mean: [0, 0], sem: [null, null] },
+      { algorithm: "seed", title: "SEED", seeds: 2, planned: 2, x: [0, end], mean: [0, 0.5], sem: [0, 0.1] },
+      {
+        algorithm: "sac",
+        title: "SAC",
+        seeds: 1,
+        planned: 3,
+        x: [0, end / 2],
+        mean: [0, 0],
+        sem: [null, null],
+      },
     ],
     paper: [
       { algorithm: "seed", title: "SEED", trial: 1, x: [100], y: [0.9] },
@@ -30,7 +38,7 @@ describe("a study's lines", () => {
       null,
       null,
       "SEED (2 seeds)",
-      "SAC (1 seed)",
+      "SAC (1 of 3 seeds)",
     ]);
     expect(lines[0]?.color).toBe(lines[4]?.color);
     expect(lines[2]?.y).toEqual([0, 0.6]);
@@ -50,5 +58,17 @@ describe("a study's lines", () => {
     const lines = linesOf(scenario(4));
     expect(isLogarithmic(lines)).toBe(true);
     expect(chartData(lines)[0]).toEqual([2, 4, 100]);
+  });
+
+  it("say what the axis and the lines hide", () => {
+    expect(notesOf(scenario(100))).toEqual([]);
+    const told = scenario(4);
+    told.curves[1] = { algorithm: "sac", title: "SAC", seeds: 1, planned: 3, x: [0], mean: [0], sem: [null] };
+    told.paper.push({ algorithm: "tamer", title: "TAMER", trial: null, x: [100], y: [0.9] });
+    expect(notesOf(told)).toEqual([
+      expect.stringContaining("no 0"),
+      expect.stringMatching(/Only at 0.*SAC \(1 of 3 seeds\)/),
+      "One line in the paper: SEED, TAMER.",
+    ]);
   });
 });

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import pytest
 
 from agent.study import paper
-from agent.study.curves import curve
+from agent.study.curves import abreast, curve
 from agent.study.evaluations import Row
 from agent.study.plan import SCENARIOS, Axis, Measure
 
@@ -28,6 +30,20 @@ def test_successes_are_counted_where_the_figure_counts_them() -> None:
     found = curve([[row(0), row(7, 10, successes=3)]], Axis.DECISIONS, Measure.SUCCESSES)
     assert found is not None
     assert found.values.tolist() == [[0, 3]]
+
+
+def test_runs_far_behind_the_others_are_in_no_curve_yet() -> None:
+    def run(evaluations: int) -> list[Row]:
+        return [dataclasses.replace(row(10 * number), evaluation=number) for number in range(evaluations + 1)]
+
+    def chosen(*lengths: int) -> list[int]:
+        found = abreast([run(length) if length >= 0 else [] for length in lengths], evaluations=8)
+        return [rows[-1].evaluation for rows in found]
+
+    assert chosen(-1, -1) == []
+    assert chosen(0, 0, -1) == [0, 0]
+    assert chosen(5, 3, 2, 0) == [5, 3]
+    assert chosen(8, 8, 5, 0) == [8, 8], "what came to its end isn't cut short by what did not"
 
 
 def test_there_is_no_curve_before_every_seed_was_measured() -> None:

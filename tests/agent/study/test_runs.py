@@ -12,8 +12,9 @@ import torch
 
 from agent.study.algorithms import CONTESTANTS, ORACLE
 from agent.study.evaluations import Row, append_row, keep_rows, read_rows
-from agent.study.plan import SCENARIOS, Plan, Protocol, planned
+from agent.study.plan import ORACLE_STEPS, SCENARIOS, Plan, Protocol, planned
 from agent.study.records import Folder
+from agent.study.results import write_results
 from agent.study.runs import work
 from server.workers.study import builders
 
@@ -39,6 +40,7 @@ def small(name: str, scenario: str, budget: int, evaluations: int) -> Plan:
         budgets={scenario: budget},
         protocol=Protocol(evaluations=evaluations, rollouts=1),
         oracle=ORACLE.model_copy(update={"settings": {**ORACLE.settings, "warm_up": 20}}),
+        oracle_steps=budget,
     )
 
 
@@ -148,6 +150,42 @@ def test_a_run_says_what_it_was_made_of(tmp_path: Path) -> None:
     described = (Folder(tmp_path).run(run.id) / "run.json").read_text("utf-8")
     for told in ('"seed": 3', '"adapter": "kinematic"', '"torch": "2', '"code": "', '"hidden_size": 16'):
         assert told in described
+
+
+def test_a_judge_of_actions_says_how_well_it_does_itself(tmp_path: Path) -> None:
+    plan = small("tamer", "reaching", 10, 1)
+    folder = Folder(tmp_path)
+    judge, judged = plan.runs
+    assert judge.without_physics
+    assert not judged.without_physics
+    write_results(folder, plan)
+    table = tmp_path / "table.md"
+    assert "judged by SAC, TAMER's oracle, 10 low-level steps without physics: not trained yet" in table.read_text(
+        "utf-8"
+    )
+    row = Row(1, 10, 10, 10, 1, 0, 0, 10, 10, 8, 1.0)  # 8 of 10 rollouts
+    folder.run(judge.id).mkdir(parents=True)
+    append_row(folder.run(judge.id) / "evaluations.csv", row)
+    write_results(folder, plan)
+    assert "solves 8 of 10 rollouts on the kinematic adapter. Warning: below 90% " in table.read_text("utf-8")
+    append_row(folder.run(judge.id) / "evaluations.csv", dataclasses.replace(row, rollouts_succeeded=9))
+    write_results(folder, plan)
+    assert "solves 9 of 10" in table.read_text("utf-8")
+    assert "Warning" not in table.read_text("utf-8")
+
+
+def test_a_judge_learns_for_as_long_as_it_takes_however_short_the_study() -> None:
+    for asked, expected in ((10, ORACLE_STEPS), (2 * ORACLE_STEPS, 2 * ORACLE_STEPS)):
+        plan = planned(
+            "paper-sim",
+            "robosuite",
+            [(SCENARIOS["reaching"], [CONTESTANTS["tamer"]])],
+            seeds=[10],
+            budgets={"reaching": asked},
+            protocol=Protocol(),
+            oracle=ORACLE,
+        )
+        assert [run.budget for run in plan.runs] == [expected, asked]
 
 
 def test_a_run_whose_oracle_failed_fails_and_says_why(tmp_path: Path) -> None:

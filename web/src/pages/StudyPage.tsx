@@ -6,6 +6,7 @@ import { StudyChart, StudyLegend } from "../components/StudyChart";
 import { StudyProgress, studyState } from "../components/StudyProgress";
 import { StudyRuns } from "../components/StudyRuns";
 import * as http from "../http";
+import { notesOf } from "../studyLines";
 import { usePolled } from "../usePolled";
 import type { Study, StudyScenario } from "../wire";
 
@@ -21,9 +22,12 @@ function Scenario({ study, scenario }: { study: Study; scenario: StudyScenario }
         <p className="empty-chart">The curves begin with the first evaluation.</p>
       )}
       <StudyLegend scenario={scenario} />
-      <p className="soft small">
-        Here: the mean of the seeds, thin lines one standard error away. In the figures: {scenario.caption}
-      </p>
+      {scenario.curves.length > 0 && (
+        <p className="soft small" data-testid="study-notes">
+          {notesOf(scenario).join(" ")}
+        </p>
+      )}
+      <p className="soft small">{scenario.caption}</p>
       <StudyRuns scenario={scenario} runs={study.run_list.filter((run) => run.scenario === scenario.name)} />
     </section>
   );
