@@ -4,7 +4,7 @@
 all four ways, so that luck of the seed is the same. A seed that did not get there within twice the task's bar counts
 as that much. The value is the mean over tasks of each task's feedback by uncertainty over its feedback by value, with
 two critics: below 1, asking for what is uncertain saves clicks. `BENCH_SEEDS` (default 10) and `BENCH_TASKS`
-(default all five, by commas) say how much is run; all of it takes about half an hour.
+(default all five, by commas) say how much is run; all of it takes about ten minutes.
 """
 
 from __future__ import annotations
