@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from playwright.sync_api import expect
+from playwright.sync_api import Page, expect
 
+from tests.e2e.test_pages import PHONE, fits
 from tests.e2e.trainer import START_MS, Opener
 from tests.live import wait_for
 
@@ -54,3 +55,12 @@ def test_one_robot_is_judged_while_the_other_moves(opener: Opener) -> None:
         (first, 1, "stored"),
         (second, 1, "stored"),
     ]
+
+
+def test_sixteen_robots_fit_a_phone(page: Page, opener: Opener) -> None:
+    page.set_viewport_size({"width": PHONE["width"], "height": PHONE["height"]})
+    trainer = opener(start=False, num_envs=16)
+    expect(trainer.test_id("robot-16")).to_be_visible()
+    assert fits(page)
+    trainer.test_id("robot-16").click()
+    expect(trainer.test_id("queue")).to_contain_text("Robot 16 of 16")

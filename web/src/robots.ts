@@ -1,5 +1,5 @@
 // What the page knows of each robot of the experiment, and which of them it shows.
-import type { Execution, Proposal } from "./wire";
+import type { Execution, Proposal, Value } from "./wire";
 
 export interface RobotState {
   /** The newest proposal; open while `closed_at` is absent. */
@@ -15,9 +15,17 @@ export function isOpen(proposal: Proposal): boolean {
   return !proposal.closed_at;
 }
 
-/** The proposals that wait, of all robots, oldest first. */
-export function queueOf(robots: RobotState[]): Proposal[] {
-  const open = robots.flatMap(({ proposal }) => (proposal && isOpen(proposal) ? [proposal] : []));
+/** What this page has said, acknowledged, by proposal; a proposal may stay open until others are judged too. */
+export type Judged = Record<number, Value>;
+
+/** Whether this robot's proposal waits for this page. */
+export function waits({ proposal }: RobotState, judged: Judged): boolean {
+  return proposal !== null && isOpen(proposal) && judged[proposal.id] === undefined;
+}
+
+/** The proposals that wait for this page, of all robots, oldest first. */
+export function queueOf(robots: RobotState[], judged: Judged): Proposal[] {
+  const open = robots.flatMap((robot) => (robot.proposal && waits(robot, judged) ? [robot.proposal] : []));
   return open.sort((one, other) => one.number - other.number);
 }
 
@@ -26,13 +34,14 @@ export function shownRobot(
   robots: RobotState[],
   chosen: number | null,
   before: number,
-  judged: boolean,
+  judging: boolean,
+  judged: Judged,
 ): number {
   if (chosen !== null && chosen < robots.length) return chosen;
-  const [next] = judged ? queueOf(robots) : [];
+  const [next] = judging ? queueOf(robots, judged) : [];
   if (next) return next.robot;
   const stays = robots[before];
-  if (stays && (!judged || stays.proposal || stays.execution)) return before;
+  if (stays && (!judging || stays.proposal || stays.execution)) return before;
   return Math.max(
     0,
     robots.findIndex(({ execution }) => execution !== null),

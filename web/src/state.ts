@@ -1,6 +1,6 @@
 // All a trainer's page knows, in one reducer fed by the stream. Pure; the effects are in session.ts.
 import type { Click } from "./outbox";
-import { isOpen, type RobotState, STILL, saying, shownRobot } from "./robots";
+import { isOpen, type Judged, type RobotState, STILL, saying, shownRobot } from "./robots";
 import type { Connection } from "./stream";
 import type {
   Evaluation,
@@ -39,8 +39,8 @@ export interface TrainerState {
   undoableOn: number | null;
   /** Clicks that aren't acknowledged yet. */
   pending: Click[];
-  /** The newest acknowledged click on the current proposal; it may stay open for other trainers. */
-  judged: { proposalId: number; value: Value } | null;
+  /** The acknowledged clicks on the robots' newest proposals. */
+  judged: Judged;
   curve: CurvePoint[];
   evaluation: Evaluation | null;
   evaluationDone: number;
@@ -85,7 +85,7 @@ export const initial: TrainerState = {
   undoable: null,
   undoableOn: null,
   pending: [],
-  judged: null,
+  judged: {},
   curve: [],
   evaluation: null,
   evaluationDone: 0,
@@ -98,7 +98,7 @@ export const initial: TrainerState = {
 export function reduce(state: TrainerState, action: Action): TrainerState {
   const next = step(state, action);
   if (next === state) return state;
-  const shown = shownRobot(next.robots, next.chosen, next.shown, !next.experiment?.teacher);
+  const shown = shownRobot(next.robots, next.chosen, next.shown, !next.experiment?.teacher, next.judged);
   return { ...next, shown, ...(next.robots[shown] ?? STILL) };
 }
 
@@ -155,7 +155,7 @@ function onEvent(state: TrainerState, event: StreamEvent): TrainerState {
     case "feedback_undone":
       return {
         ...state,
-        judged: null,
+        judged: except(state.judged, event.feedback.proposal_id),
         undoable: state.undoable?.id === event.feedback.id ? null : state.undoable,
       };
     case "execution_started":
@@ -199,7 +199,7 @@ function onSnapshot(state: TrainerState, event: SnapshotEvent): TrainerState {
     robots,
     undoable: event.undoable ?? null,
     undoableOn: null,
-    judged: null, // may have been undone meanwhile; a second click on the same proposal is the service's to refuse
+    judged: {}, // may have been undone meanwhile; a second click on the same proposal is the service's to refuse
   };
   const synced = withExperiment(next, event.experiment);
   return restarted
@@ -214,9 +214,13 @@ function withRobot(state: TrainerState, robot: number, change: Partial<RobotStat
 }
 
 function onOpened(state: TrainerState, proposal: Proposal): TrainerState {
-  const { execution, live } = state.robots[proposal.robot] ?? STILL;
+  const { execution, live, proposal: last } = state.robots[proposal.robot] ?? STILL;
   const next = withRobot(state, proposal.robot, { proposal, live: execution ? live : null });
-  return { ...next, judged: state.judged?.proposalId === proposal.id ? null : state.judged };
+  return { ...next, judged: except(state.judged, proposal.id, last?.id) };
+}
+
+function except(judged: Judged, ...ids: (number | undefined)[]): Judged {
+  return Object.fromEntries(Object.entries(judged).filter(([id]) => !ids.includes(Number(id))));
 }
 
 /** The click that an undo would take back, and the robot that it is about, as long as that is known. */
@@ -289,7 +293,7 @@ function onAcknowledged(state: TrainerState, requestId: string, feedback: Feedba
   const pending = without(state.pending, requestId);
   // The answer to an undo carries the undone click: that proposal is to be judged again.
   const click = feedback?.click_id === requestId ? feedback : null;
-  const judged = click ? { proposalId: click.proposal_id, value: click.value as Value } : state.judged;
+  const judged = click ? { ...state.judged, [click.proposal_id]: click.value as Value } : state.judged;
   const next = { ...state, pending, judged };
   if (feedback?.status !== "late") return next;
   return withNotice(next, "warning", `Your “${wordFor(feedback.value)}” came too late: not counted.`);
@@ -351,8 +355,7 @@ export function pendingFor(state: TrainerState, proposalId: number): Value | nul
 
 /** What this page said about a proposal, acknowledged or not. */
 export function chosenFor(state: TrainerState, proposalId: number): Value | null {
-  const { judged } = state;
-  return pendingFor(state, proposalId) ?? (judged?.proposalId === proposalId ? judged.value : null);
+  return pendingFor(state, proposalId) ?? state.judged[proposalId] ?? null;
 }
 
 /** Whether a click now may judge the proposal that is drawn on the screen. */

@@ -1,5 +1,6 @@
 // Which presses count: those on a proposal that was on the screen long enough to be looked at. The others are told of.
 import { useEffect, useState } from "react";
+import { queueOf } from "./robots";
 import { chosenFor, judgeable, type TrainerState } from "./state";
 import { useDrawnAt } from "./useDrawnAt";
 import type { Value } from "./wire";
@@ -30,6 +31,9 @@ function whyNot(state: TrainerState, ready: boolean): string | null {
   const { experiment, proposal } = state;
   if (ready) return "Too fast, not counted: look at this one first.";
   if (experiment?.lifecycle !== "running" || experiment.halted || experiment.teacher) return null;
+  const waiting = queueOf(state.robots, state.judged);
+  if (waiting.length > 0 && !waiting.some(({ robot }) => robot === state.shown))
+    return "Not counted: other robots wait to be judged. Press “In turn” to see their proposals.";
   if (state.execution) return "Not counted: nothing to judge while the robot moves.";
   if (proposal && chosenFor(state, proposal.id) !== null) return "Not counted: that one was judged already.";
   return "Not counted: the next proposal isn’t here yet.";

@@ -147,6 +147,19 @@ describe("judging what was looked at", () => {
     ],
     ["nothing to judge while the robot moves", having(snapshot({ execution: execution(1) }))],
     ["the next proposal isn’t here yet", having(snapshot())],
+    [
+      "other robots wait to be judged. Press “In turn” to see their proposals",
+      reduce(
+        having(
+          snapshot({
+            experiment: experiment({ num_envs: 2 }),
+            proposals: [proposal(1, { robot: 1 })],
+            executions: [execution(1)],
+          }),
+        ),
+        { kind: "watch", robot: 0 },
+      ),
+    ],
   ])("says why a press between two proposals isn't counted: %s", async (why, state) => {
     const sent: Sent[] = [];
     await show(<Page state={state} drawnId={null} sent={sent} />);

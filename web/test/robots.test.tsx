@@ -5,7 +5,7 @@ import { CameraView } from "../src/components/CameraView";
 import { RobotPicker } from "../src/components/RobotPicker";
 import { FrameSink } from "../src/frames";
 import { queueOf } from "../src/robots";
-import { initial, judgeable, reduce, type TrainerState } from "../src/state";
+import { chosenFor, initial, judgeable, reduce, type TrainerState } from "../src/state";
 import type { Execution, Proposal, StreamEvent } from "../src/wire";
 import { execution, experiment, feedback, proposal, snapshot } from "./messages";
 import { byTestId, show } from "./render";
@@ -42,7 +42,7 @@ const waiting = next(
 describe("one queue", () => {
   it("shows the oldest open proposal, then the next one, while the first robot moves", () => {
     expect([waiting.shown, waiting.proposal?.id]).toEqual([0, 1]);
-    expect(queueOf(waiting.robots).map(({ id }) => id)).toEqual([1, 2, 3]);
+    expect(queueOf(waiting.robots, {}).map(({ id }) => id)).toEqual([1, 2, 3]);
     const moving = next(waiting, closed(0, 1), started(0, 1));
     expect([moving.shown, moving.proposal?.id, moving.execution, moving.live]).toEqual([1, 2, null, null]);
     expect(judgeable(moving, 2)).toBe(true);
@@ -69,6 +69,23 @@ describe("one queue", () => {
     expect([watching.shown, watching.live]).toEqual([0, 1]);
     expect(judgeable(watching, 2)).toBe(false);
     expect(reduce(watching, { kind: "watch", robot: null }).proposal?.id).toBe(2);
+  });
+
+  it("goes on to the next robot where a judged proposal waits until the others are judged too", () => {
+    const ack = (id: number): StreamEvent => ({
+      type: "acknowledged",
+      request_id: `click-${id}`,
+      feedback: feedback(id, { click_id: `click-${id}`, proposal_id: id }),
+    });
+    const one = next(waiting, ack(1));
+    expect([one.shown, one.proposal?.id, queueOf(one.robots, one.judged).length]).toEqual([1, 2, 2]);
+    const all = next(one, ack(2), ack(3));
+    expect(queueOf(all.robots, all.judged)).toEqual([]);
+    expect([1, 2, 3].map((id) => chosenFor(all, id))).toEqual([1, 1, 1]);
+    const undone = next(all, { type: "feedback_undone", feedback: feedback(2) }, opened(1, 2));
+    expect([undone.proposal?.id, judgeable(undone, 2), judgeable(undone, 3)]).toEqual([2, true, false]);
+    const later = next(all, opened(2, 4), opened(0, 5), opened(1, 6));
+    expect([later.proposal?.id, later.judged]).toEqual([4, {}]);
   });
 
   it("doesn't jump about where a teacher judges", () => {
@@ -155,7 +172,13 @@ it("offers every robot, and says what each does and how many proposals wait", as
   const chosen: (number | null)[] = [];
   const moving = next(waiting, closed(0, 1), started(0, 1));
   await show(
-    <RobotPicker robots={moving.robots} chosen={null} shown={1} onChoose={(robot) => chosen.push(robot)} />,
+    <RobotPicker
+      robots={moving.robots}
+      judged={moving.judged}
+      chosen={null}
+      shown={1}
+      onChoose={(robot) => chosen.push(robot)}
+    />,
   );
   expect(byTestId("queue").textContent).toBe("Robot 2 of 32 proposals wait");
   expect(byTestId("robot-1").dataset.doing).toBe("moving");

@@ -1,22 +1,23 @@
 // Which of several robots is shown: the one that is to be judged next, or one that someone keeps an eye on.
-import { isOpen, queueOf, type RobotState } from "../robots";
+import { type Judged, queueOf, type RobotState, waits } from "../robots";
 
 export interface RobotPickerProps {
   robots: RobotState[];
+  judged: Judged;
   chosen: number | null;
   shown: number;
   onChoose: (robot: number | null) => void;
 }
 
-function doing({ proposal, execution }: RobotState): "moving" | "waiting" | "busy" {
-  if (execution) return "moving";
-  return proposal && isOpen(proposal) ? "waiting" : "busy";
+function doing(robot: RobotState, judged: Judged): "moving" | "waiting" | "busy" {
+  if (robot.execution) return "moving";
+  return waits(robot, judged) ? "waiting" : "busy";
 }
 
 const WORDS = { moving: "moves", waiting: "its proposal waits", busy: "busy" };
 
-export function RobotPicker({ robots, chosen, shown, onChoose }: RobotPickerProps) {
-  const waiting = queueOf(robots).length;
+export function RobotPicker({ robots, judged, chosen, shown, onChoose }: RobotPickerProps) {
+  const waiting = queueOf(robots, judged).length;
   return (
     <div className="robots">
       <fieldset className="segments" aria-label="Which robot is shown" data-testid="robots">
@@ -29,9 +30,9 @@ export function RobotPicker({ robots, chosen, shown, onChoose }: RobotPickerProp
             type="button"
             aria-pressed={chosen === index}
             aria-label={`Robot ${index + 1}`}
-            title={`Robot ${index + 1}: ${WORDS[doing(robot)]}`}
+            title={`Robot ${index + 1}: ${WORDS[doing(robot, judged)]}`}
             data-testid={`robot-${index + 1}`}
-            data-doing={doing(robot)}
+            data-doing={doing(robot, judged)}
             onClick={() => onChoose(index)}
           >
             <span className="dot" />

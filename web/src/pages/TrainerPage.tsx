@@ -26,7 +26,7 @@ export function TrainerPage({ id }: { id: number }) {
   const { state, session } = useSession(id);
   const [question, setQuestion] = useState<Question | null>(null);
   const images = useMemo(() => new ImageStore(), []);
-  const next = queueOf(state.robots).find(({ id }) => id !== state.proposal?.id) ?? null;
+  const next = queueOf(state.robots, state.judged).find(({ id }) => id !== state.proposal?.id) ?? null;
   const { drawn, failed } = useDrawn(images, state.proposal, next);
   const { experiment, proposal, undoable, live } = state;
 
@@ -59,6 +59,7 @@ export function TrainerPage({ id }: { id: number }) {
             {state.robots.length > 1 && (
               <RobotPicker
                 robots={state.robots}
+                judged={state.judged}
                 chosen={state.chosen}
                 shown={state.shown}
                 onChoose={session.watch}
