@@ -7,6 +7,7 @@ import json
 import signal
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import pytest
 from typer.testing import CliRunner
@@ -14,7 +15,7 @@ from typer.testing import CliRunner
 from agent.study.records import EVALUATIONS, Folder
 from server.cli import app
 from tests.live import wait_for
-from tests.server.test_cli import begun, seed
+from tests.server.test_cli import begun
 
 TINY = (
     "study", "paper-sim", "--adapter", "kinematic", "--tasks", "first_subgoal", "--algorithms", "seed-recommended",
@@ -47,14 +48,20 @@ def wrong(arguments: Sequence[object], *words: str) -> None:
         assert word in done.output, done.output
 
 
+def told(arguments: Sequence[object]) -> dict[str, Any]:
+    """What the command prints for programs, from this process; its runs have processes of their own all the same."""
+    done = CliRunner().invoke(app, [*map(str, arguments), "--json"])
+    assert done.exit_code == 0, done.output
+    found: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
+    return found
+
+
 def test_a_killed_study_goes_on_to_the_same_numbers(tmp_path: Path) -> None:
     whole, killed = tmp_path / "data" / "studies" / "paper-sim", tmp_path / "killed"
-    done = seed(*TINY, "--data-dir", tmp_path / "data", "--json")
-    assert done.returncode == 0, done.stderr
-    told = json.loads(done.stdout.splitlines()[-1])
-    assert (told["runs"], told["finished"], told["failed"]) == (2, 2, 0)
-    assert told["folder"] == str(whole)
-    (result,) = told["results"]
+    all_told = told([*TINY, "--data-dir", tmp_path / "data"])
+    assert (all_told["runs"], all_told["finished"], all_told["failed"]) == (2, 2, 0)
+    assert all_told["folder"] == str(whole)
+    (result,) = all_told["results"]
     assert (result["task"], result["algorithm"], result["seeds"]) == ("first_subgoal", "seed-recommended", 2)
     assert result["reached"] == 16
     assert 0 <= result["successes"]["iqm"] <= 16
@@ -89,9 +96,7 @@ def test_a_killed_study_goes_on_to_the_same_numbers(tmp_path: Path) -> None:
 
     wrong([*TINY, "--out", killed], "holds a study already", "--resume")
     wrong([*again, "--seeds", 3], "--seeds", "planned already")
-    done = seed(*again, "--jobs", 2, "--json")
-    assert done.returncode == 0, done.stderr
-    assert json.loads(done.stdout.splitlines()[-1])["results"] == told["results"]
+    assert told([*again, "--jobs", 2])["results"] == all_told["results"]
     assert measured(killed) == expected
 
 
@@ -117,10 +122,8 @@ def test_an_ablation_takes_one_ingredient_away_at_a_time(tmp_path: Path) -> None
     out = tmp_path / "study"
     options = ["--adapter", "kinematic", "--seeds", 1, "--budget", 2, "--evaluations", 1, "--rollouts", 1]
     wrong(["study", "ablation", "--without", "luck", *options, "--out", out], "--without", "luck", "recall")
-    done = seed("study", "ablation", "--without", "nothing,recall", *options, "--jobs", 1, "--out", out, "--json")
-    assert done.returncode == 0, done.stderr
-    told = json.loads(done.stdout.splitlines()[-1])
-    assert [each["algorithm"] for each in told["results"]] == ["nothing", "recall"]
+    done = told(["study", "ablation", "--without", "nothing,recall", *options, "--jobs", 1, "--out", out])
+    assert [each["algorithm"] for each in done["results"]] == ["nothing", "recall"]
     settings = [run.contestant.settings for run in Folder(out).plan().runs]
     assert {name for name in settings[0] if settings[0][name] != settings[1].get(name)} == {"recall"}
     assert "the paper's figure" not in (out / "table.md").read_text("utf-8")
@@ -146,7 +149,7 @@ def test_folders_of_something_else_are_left_alone(tmp_path: Path) -> None:
 
 
 def test_the_list_names_every_task_and_algorithm() -> None:
-    told = CliRunner().invoke(app, ["study", "list"])
-    assert told.exit_code == 0
+    listed = CliRunner().invoke(app, ["study", "list"])
+    assert listed.exit_code == 0
     for word in ("paper-sim", "first_subgoal", "seed-recommended", "ablation", "grounded_actor", "composition"):
-        assert word in told.stdout
+        assert word in listed.stdout
