@@ -18,7 +18,7 @@ from agent.grounding import Grounding
 from agent.networks import Networks
 from agent.proposing import Choice
 from agent.replay import Batch, Float32, Replay
-from agent.search import Elimination
+from agent.search import Elimination, PushElimination
 
 SAME_SITUATION = 0.02
 """States that differ by no more than this in any entry, scaled to [-1, 1], are the same situation."""
@@ -43,6 +43,8 @@ MOST_TIRED = 1.0
 """Less than `REFUSED`: a call without parameters, once refused, doesn't come back because there is much to search."""
 OTHER_REACH = 0.12
 """How far a refusal reaches in a parameter that is no position, scaled to [-1, 1]."""
+ELIMINATED = 3.0
+"""So many times less far, where elimination keeps a push's lengths apart: only the same push gets another start."""
 FAR = 2.0
 """Pushes along x and along y are twice this many reaches apart."""
 
@@ -82,9 +84,13 @@ class Chooser:
         self._networks, self._grounding, self._replay, self._search = networks, grounding, replay, search
         free = torch.nonzero((grounding.option_keypoint < 0) & grounding.position[grounding.option_skill])[:, 0]
         self._eliminations: dict[int, Elimination] = {}
+        self._pushes: dict[int, PushElimination] = {}
         if search.eliminate:
             skills = grounding.option_skill
             self._eliminations = {o: Elimination(grounding, int(skills[o]), search.spacing) for o in free.tolist()}
+            at_keypoint = (grounding.option_keypoint >= 0) & (grounding.delta[skills] >= 0)
+            pushes = torch.nonzero(at_keypoint)[:, 0].tolist()
+            self._pushes = {o: PushElimination(grounding, int(skills[o]), search.spacing) for o in pushes}
 
     @torch.inference_mode()
     def choose(self, state: Float32, keypoints: Float32, generator: torch.Generator, *, deterministic: bool) -> Choice:
@@ -96,7 +102,7 @@ class Chooser:
         networks, grounding, search = self._networks, self._grounding, self._search
         states, here = (torch.from_numpy(array).unsqueeze(0) for array in (state, keypoints))
         mean, log_std = (part[:, 0] for part in networks.parameter_distributions(states))
-        options, local = _remembered(grounding, self._replay)
+        options, local = _remembered(grounding, self._replay, here[0])
         promising = torch.zeros(grounding.options, dtype=torch.bool)
         promising[options] = True
         recalled = max(0, len(options) - search.recall)
@@ -105,7 +111,7 @@ class Chooser:
         refused = self._replay.refused(state, SAME_SITUATION)
         if not deterministic:
             parts += self._drawn((mean, log_std), promising, generator)
-            self._look(parts, promising, refused, generator)
+            self._look(parts, promising, refused, here[0], generator)
             parts.append((options, local + JITTER * torch.randn(local.shape, generator=generator)))
             # the same position, other parameters: how far a push goes may differ from state to state
             anew = 2 * torch.rand(local[:, 3:].shape, generator=generator) - 1
@@ -158,19 +164,36 @@ class Chooser:
         return [(options, local.flatten(0, 1)) for options, local in parts]
 
     def _look(
-        self, parts: list[tuple[Tensor, Tensor]], promising: Tensor, refused: Batch, generator: torch.Generator
+        self,
+        parts: list[tuple[Tensor, Tensor]],
+        promising: Tensor,
+        refused: Batch,
+        keypoints: Tensor,
+        generator: torch.Generator,
     ) -> None:
         """Put the candidates of every skill that is still looked for where looking decides most."""
+        bad = self._replay.bad()
         for option, elimination in self._eliminations.items():
             if promising[option]:
                 continue
             skill = int(self._grounding.option_skill[option])
-            here, anywhere = (
-                torch.from_numpy(batch.parameters[batch.skills == skill, :3]) for batch in (refused, self._replay.bad())
-            )
+            here, anywhere = (torch.from_numpy(batch.parameters[batch.skills == skill, :3]) for batch in (refused, bad))
             at = elimination.next(here, anywhere, generator)
             for options, local in parts:
                 local[options == option, :3] = at
+        for option, pushing in self._pushes.items():
+            if promising[option]:
+                continue
+            calls = [self._of_option(batch, option) for batch in (refused, bad)]
+            keypoint = keypoints[self._grounding.option_skill[option], self._grounding.option_keypoint[option]]
+            at = pushing.next(calls[0], calls[1], keypoint, generator)
+            for options, local in parts:
+                local[torch.nonzero(options == option), pushing.columns] = at
+
+    def _of_option(self, batch: Batch, option: int) -> Tensor:
+        """(R, P) the scaled parameters of those calls that are of this option."""
+        skills, parameters, keypoints = map(torch.from_numpy, (batch.skills, batch.parameters, batch.keypoints))
+        return parameters[self._grounding.encode(skills, parameters, keypoints)[0] == option]
 
     def _lost(self, refused: Batch, promising: Tensor, options: Tensor, parameters: Tensor) -> Tensor:
         """`_refused`, but where elimination looks, it has heeded the refused spots already."""
@@ -196,11 +219,20 @@ def _decoded(grounding: Grounding, options: Tensor, local: Tensor, here: Tensor)
     return decoded
 
 
-def _remembered(grounding: Grounding, replay: Replay) -> tuple[Tensor, Tensor]:
-    """Options and local parameters of what was called good, the newest last."""
+def _remembered(grounding: Grounding, replay: Replay, here: Tensor) -> tuple[Tensor, Tensor]:
+    """Options and local parameters of what was called good, the newest last.
+
+    here: (K, M, 3) m, where the key points are now. A push is remembered twice: as long as it was, and ending there.
+    """
     good = replay.good()
     skills, parameters, keypoints = map(torch.from_numpy, (good.skills, good.parameters, good.keypoints))
-    return grounding.encode(skills, parameters, keypoints)
+    options, local = grounding.encode(skills, parameters, keypoints)
+    rows = torch.nonzero((grounding.option_keypoint[options] >= 0) & (grounding.delta[skills] >= 0))[:, 0]
+    if not len(rows):
+        return options, local
+    again = grounding.ending_alike(skills[rows], parameters[rows], options[rows], local[rows], here)
+    order = torch.argsort(torch.cat([torch.arange(len(options)), rows]), stable=True)
+    return torch.cat([options, options[rows]])[order], torch.cat([local, again])[order]
 
 
 def _away(grounding: Grounding, good: tuple[Tensor, Tensor], options: Tensor, local: Tensor) -> Tensor:
@@ -231,6 +263,8 @@ def _refused(
     known[grounding.option_skill[promising]] = True
     reach = torch.where(grounded, LOCAL_REACH * grounding.radius, torch.where(known, KNOWN_REACH, 1.0) * search.spacing)
     scale = torch.full_like(grounding.half, 1.0 / OTHER_REACH)
+    if search.eliminate:
+        scale[grounded & (grounding.delta >= 0) & ~known] *= ELIMINATED
     where = grounding.position
     scale[where, :3] = grounding.half[where, :3] / reach[where, None]
     ours = _coordinates(grounding, scale, skills, parameters)

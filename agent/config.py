@@ -177,7 +177,8 @@ class SeedSettings(BaseModel):
         bool,
         Field(
             description="a skill without key points that was never called good is tried where most is left of what "
-            "refusals within `explore_spacing` have not ruled out; otherwise at random, away from them"
+            "refusals within `explore_spacing` have not ruled out, and so are direction and length of a push at a key "
+            "point; otherwise at random, away from them"
         ),
     ] = False
     avoid_refused: Annotated[

@@ -109,6 +109,20 @@ class Grounding:
         moved = parameters[:, :2] + axes * delta[:, None] / self.half[skills, :2]
         return torch.where(pushes[:, None], moved, 0.0)
 
+    def ending_alike(self, skills: Tensor, parameters: Tensor, options: Tensor, local: Tensor, here: Tensor) -> Tensor:
+        """Pushes (B,), (B, P) as `encode` told them -> (B, P) local, from the key point as it is now to the same end.
+
+        here: (K, M, 3) m. Where the same end is out of a push's bounds, the nearest.
+        """
+        rows = torch.arange(len(skills))
+        delta, axis = self.delta[skills], (parameters[rows, self.direction[skills]] >= 0).long()
+        end = self.centre[skills, axis] + self.half[skills, axis] * self.read_end(skills, parameters)[rows, axis]
+        start = here[skills, self.option_keypoint[options], axis] + self.radius * local[rows, axis]
+        again = local.clone()
+        length = (end - start - self.centre[skills, delta]) / self.half[skills, delta]
+        again[rows, delta] = length.clamp(-1.0, 1.0)
+        return again
+
 
 def grounding(
     skills: Sequence[SkillSpec], counts: Sequence[int], *, grounded: bool, relative: bool, radius: float

@@ -9,9 +9,9 @@ import torch
 from agent.algorithm import Label
 from agent.config import SEED, SeedSettings
 from agent.grounding import Grounding, grounding
-from agent.search import Elimination
+from agent.search import Elimination, PushElimination
 from robot_adapters.base import Array, SkillCall
-from tests.agent.problems import PICK, of_task
+from tests.agent.problems import PICK, PUSH, of_task
 
 NOTHING = torch.zeros(0, 3)
 
@@ -70,3 +70,54 @@ def test_a_good_reach_ends_the_search(elimination: bool) -> None:
     while learner.owed_updates:
         learner.update()
     np.testing.assert_allclose(learner.propose(state, deterministic=True).call.parameters, good, atol=1e-4)
+
+
+KEYPOINT = torch.tensor([0.55, 0.0, 0.0])
+
+
+def of_push() -> Grounding:
+    return grounding((PUSH,), [1], grounded=True, relative=True, radius=0.04)
+
+
+def pushed(end: float, *, along_y: bool, seed: int) -> int:
+    """Refusals until the first push from the key point that ends within 20 mm of `end` (m), and that one."""
+    ground, generator = of_push(), torch.Generator().manual_seed(seed)
+    elimination = PushElimination(ground, 0, 0.05)
+    refused = torch.zeros(0, 5)
+    for tried in range(1, 200):
+        direction, delta = elimination.next(refused, refused, KEYPOINT, generator).tolist()
+        length = PUSH.denormalise(np.array([0.0, 0.0, 0.0, direction, delta]))[4]
+        if (direction >= 0) == along_y and abs(float(KEYPOINT[int(along_y)]) + length - end) <= 0.02:
+            return tried
+        local = torch.tensor([[[0.0, 0.0, 0.0, direction, delta]]])
+        refused = torch.cat([refused, ground.decode(local, KEYPOINT.view(1, 1, 1, 3))[0]])
+    raise AssertionError("never found")
+
+
+@pytest.mark.parametrize("along_y", [True, False])
+def test_a_pushs_direction_and_length_are_found_in_a_sweep(along_y: bool) -> None:
+    """Forty millimetres fit ten times into the lengths of each direction."""
+    middle = float(KEYPOINT[int(along_y)])
+    needed = [pushed(middle + length, along_y=along_y, seed=i) for i, length in enumerate(np.linspace(-0.17, 0.17, 12))]
+    assert np.mean(needed) < 20
+
+
+def test_a_push_is_remembered_by_where_it_ended_too() -> None:
+    """Sweeping's toy lies elsewhere now, the dustpan doesn't: the same end takes another length."""
+    problem, ground = (
+        of_task("sweeping"),
+        grounding(of_task("sweeping").skills, [1, 1], grounded=True, relative=True, radius=0.04),
+    )
+    before, after = (
+        torch.tensor([[[0.45, 0.17, 0.0], [x, y, 0.0]]]).view(2, 1, 3) for x, y in ((0.45, 0.0), (0.49, 0.02))
+    )
+    start = problem.skills[1].normalise(np.array([0.45, 0.0, -0.03, -0.5, 0.235]))
+    call = torch.from_numpy(start.astype(np.float32))[None]
+    skills = torch.tensor([1])
+    options, local = ground.encode(skills, call, before[None])
+    again = ground.ending_alike(skills, call, options, local, after)
+    every = ground.decode(again.expand(ground.options, 1, -1), after[None])
+    x, y, _, direction, delta = problem.skills[1].denormalise(every[options[0], 0].double().numpy()).tolist()
+    assert (x, y) == pytest.approx((0.49, 0.02), abs=1e-5)
+    assert x + delta == pytest.approx(0.685, abs=1e-5)
+    assert direction < 0
