@@ -45,7 +45,7 @@ class Lesson:
     """What one step learns from.
 
     states (S, B, n), skills (S, B), parameters (S, B, P) and targets (S, B) of the labels, keypoints (S, B, K, M, 3) m,
-    noise (S, O, B, P) standard normal, for the imagined parameters. weights: (S, B) of the labels in eq. 1, if any.
+    noise (S, O, B, P) standard normal, for the imagined parameters.
     """
 
     states: Tensor
@@ -54,7 +54,6 @@ class Lesson:
     targets: Tensor
     keypoints: Tensor
     noise: Tensor
-    weights: Tensor | None = None
 
 
 class Gradients:
@@ -104,7 +103,6 @@ class Gradients:
         critic_pass = self._critics.forward(self._inputs(lesson, imagined), learnt=B, pause=pause)
         predicted = critic_pass.output.view(S, -1, 1 + O, B)
         error = predicted[:, :, 0] - lesson.targets.unsqueeze(1)
-        weighted = error if lesson.weights is None else error * lesson.weights.unsqueeze(1)
         every = predicted[:, :, 1:]
         h = every.amin(dim=1)
 
@@ -118,7 +116,7 @@ class Gradients:
         share = pi / B
         lowest = (every == h.unsqueeze(1)).to(h.dtype)
         lowest /= lowest.sum(dim=1, keepdim=True)
-        by_predicted = torch.cat([weighted.unsqueeze(2) * (2 / B), -share.unsqueeze(1) * lowest], dim=2)
+        by_predicted = torch.cat([error.unsqueeze(2) * (2 / B), -share.unsqueeze(1) * lowest], dim=2)
         columns = slice(lesson.states.shape[-1] + self._networks.layout.skills, None)
         by_imagined = self._critics.backward(critic_pass, by_predicted.view(-1, (1 + O) * B, 1), columns)
         assert by_imagined is not None  # columns were asked for
@@ -132,7 +130,7 @@ class Gradients:
         self._parameter_actors.backward(actor_pass, torch.cat([by_mean, by_log_std], dim=-1).flatten(0, 1))
 
         surpluses = self._temperatures(pi, log_pi, log_pi_x)
-        critic_loss = (weighted * error).mean(dim=-1)
+        critic_loss = error.square().mean(dim=-1)
         parts = [
             critic_loss.mean(dim=-1),
             by_state.mean(dim=(1, 2)),

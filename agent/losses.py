@@ -13,14 +13,12 @@ from torch import Tensor
 from torch.nn.functional import softplus
 
 
-def critic_loss(predicted: Tensor, labels: Tensor, weights: Tensor | None = None) -> Tensor:
+def critic_loss(predicted: Tensor, labels: Tensor) -> Tensor:
     """Eq. 1: mean over the batch of (H_theta(s, a, x) - H)^2, summed over critics.
 
-    predicted: (E, B). labels: (B,), affordance penalty already taken off. weights: (B,) of the labels; the paper has
-    none.
+    predicted: (E, B). labels: (B,), affordance penalty already taken off.
     """
-    error = (predicted - labels).square()
-    return (error if weights is None else error * weights).mean(dim=1).sum()
+    return (predicted - labels).square().mean(dim=1).sum()
 
 
 def skill_actor_loss(log_probabilities: Tensor, predicted: Tensor, temperature: Tensor) -> Tensor:

@@ -2,7 +2,8 @@
 
 Each keeps its own weights, labels and dice, so it learns what it would learn alone (to rounding). What they share is
 the pass: the same layer of all learners is one batch of matrices, and the many small operations of a step, which cost
-small networks most, are called once. `agent.study` and the click benchmarks run their seeds so.
+small networks most, are called once. It is for comparisons of your own: a study runs each seed by itself, so that one
+can be interrupted and taken up again.
 """
 
 from __future__ import annotations

@@ -38,7 +38,7 @@ def networks(task: str, *, grounded: bool, hidden: int, critics: int, count: int
     return made
 
 
-def lesson(of: Networks, learners: int, batch: int, keypoints: tuple[int, ...], *, weighted: bool) -> Lesson:
+def lesson(of: Networks, learners: int, batch: int, keypoints: tuple[int, ...]) -> Lesson:
     dice = torch.Generator().manual_seed(5)
     options, _, width = of.mask.shape
 
@@ -52,7 +52,6 @@ def lesson(of: Networks, learners: int, batch: int, keypoints: tuple[int, ...], 
         targets=normal(batch),
         keypoints=normal(batch, *keypoints) * 0.1,
         noise=normal(options, batch, width),
-        weights=normal(batch).square() if weighted else None,
     )
 
 
@@ -62,14 +61,13 @@ def by_autograd(of: Networks, all_lessons: Lesson, learner: int) -> tuple[float,
         getattr(all_lessons, name)[learner]
         for name in ("states", "skills", "parameters", "targets", "keypoints", "noise")
     )
-    weights = None if all_lessons.weights is None else all_lessons.weights[learner]
     log_pi = of.skill_log_probabilities(states)
     mean, log_std = of.parameter_distributions(states)
     imagined, log_pi_x = losses.sample_parameters(mean, log_std, of.mask, noise)
     predicted = of.predict_every_skill(states, imagined, keypoints)
     entropy_target = -of.mask.sum(dim=-1)
     total = (
-        losses.critic_loss(of.predict(states, skills, parameters, keypoints), targets, weights)
+        losses.critic_loss(of.predict(states, skills, parameters, keypoints), targets)
         + losses.skill_actor_loss(log_pi, predicted, of.log_skill_temperature.exp())
         + losses.parameter_actor_loss(log_pi, log_pi_x, predicted, of.log_parameter_temperature.exp())
         + losses.skill_temperature_loss(of.log_skill_temperature, log_pi, SKILL_ENTROPY)
@@ -80,10 +78,10 @@ def by_autograd(of: Networks, all_lessons: Lesson, learner: int) -> tuple[float,
     return total.item(), dict(zip(named, found, strict=True))
 
 
-def check(task: str, *, grounded: bool, hidden: int, critics: int, count: int, batch: int, weighted: bool) -> None:
+def check(task: str, *, grounded: bool, hidden: int, critics: int, count: int, batch: int) -> None:
     learners = networks(task, grounded=grounded, hidden=hidden, critics=critics, count=count)
     shape = Encoder(of_task(task), keypoints="skill" if grounded else "none").keypoint_shape
-    given = lesson(learners[0], count, batch, shape, weighted=weighted)
+    given = lesson(learners[0], count, batch, shape)
     expected = [by_autograd(each, given, at) for at, each in enumerate(learners)]
     arena = Arena(learners, learning_rate=1e-3)
     metrics, total = Gradients(arena, SKILL_ENTROPY, -learners[0].mask.sum(dim=-1))(given)
@@ -101,19 +99,15 @@ def check(task: str, *, grounded: bool, hidden: int, critics: int, count: int, b
     ("task", "grounded"), [("reaching", False), ("sweeping", True), ("cooking_hotdog", True), ("collecting_toy", True)]
 )
 def test_small_networks(task: str, grounded: bool, count: int, critics: int) -> None:
-    check(task, grounded=grounded, hidden=32, critics=critics, count=count, batch=16, weighted=False)
-
-
-def test_weighted_labels() -> None:
-    check("stacking", grounded=False, hidden=32, critics=2, count=2, batch=16, weighted=True)
+    check(task, grounded=grounded, hidden=32, critics=critics, count=count, batch=16)
 
 
 @pytest.mark.parametrize("batch", [256, 552])
 def test_large_networks(batch: int) -> None:
     """The paper's sizes, where the processor lets each network go alone, in several parts."""
-    check("sweeping", grounded=True, hidden=256, critics=2, count=1, batch=batch, weighted=False)
+    check("sweeping", grounded=True, hidden=256, critics=2, count=1, batch=batch)
 
 
 def test_without_onednn_large_networks_learn_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(kernels, "onednn", lambda: False)
-    check("stacking", grounded=False, hidden=256, critics=1, count=1, batch=256, weighted=False)
+    check("stacking", grounded=False, hidden=256, critics=1, count=1, batch=256)
