@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from server.messages import FeedbackUndone, ProposalClosed, ProposalOpened
 from server.schemas_trust import VerdictSource
 from tests.server.databases import new
 from tests.server.stage import stage
 
-SURE = {"predicted_feedback": 0.95, "uncertainty": 0.02}
+SURE: dict[str, Any] = {"predicted_feedback": 0.95, "uncertainty": 0.02}
 
 
 async def test_an_undo_across_the_critics_approval_tells_everyone_that_it_is_closed(tmp_path: Path) -> None:
@@ -31,8 +32,8 @@ async def test_an_undo_across_the_critics_approval_tells_everyone_that_it_is_clo
 
         at = s.now
         await s.hub.undo(feedback.id)
-        told = [e for e in s.seen.events[at:] if isinstance(e, FeedbackUndone | ProposalClosed | ProposalOpened)]
-        assert [type(event) for event in told] == [FeedbackUndone, ProposalClosed, ProposalOpened]
+        told = [e for e in s.seen.events[at:] if isinstance(e, (FeedbackUndone, ProposalClosed, ProposalOpened))]
+        assert [event.type for event in told] == ["feedback_undone", "proposal_closed", "proposal_opened"]
         assert told[1] == ProposalClosed(proposal=approved)
         assert desk.judged is None
         assert desk.open is not None

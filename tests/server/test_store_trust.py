@@ -148,7 +148,8 @@ async def test_the_gate_shuts_the_critic_out_on_a_real_robot_and_without_the_rul
 
 async def test_the_gate_shuts_the_critic_out_once_its_rule_is_suspended(store: Store) -> None:
     experiment_id = await ruled(store, **NEVER_AUDITED | {"audit_every": 2})
-    approved, audited = [], 0
+    approved: list[Proposal] = []
+    audited = 0
     # the first robot's approval waits for the gate, while audits at the second one go against the critic
     while not approved or not audited:
         proposal = await sure(store, experiment_id)
