@@ -90,8 +90,8 @@ class Robot:
         return Done(**{k: reply[k] for k in (*fields, *times)}, violations=violations)
 
     async def rearm(self) -> None:
-        """Lift the stops that are lifted here too; a worker that starts only later is told then."""
-        if self.post.pid is not None:
+        """Lift the stops that are lifted here too; a worker that is still being built is told at the end of that."""
+        if self.post.ready:
             with contextlib.suppress(WorkerDied):
                 await self._ask("rearm", upto=self._stops.lifted)
 
@@ -99,8 +99,6 @@ class Robot:
         deadline, experiment = self._settings.robot_deadline, self._experiment
         if self._stops.latched:
             worker.stop(self._stops.newest)
-        elif self._stops.lifted:
-            await worker.call("rearm", deadline=deadline, upto=self._stops.lifted)
         await worker.call(
             "build",
             deadline=deadline,
@@ -110,6 +108,10 @@ class Robot:
             settings=experiment.adapter_settings,
             data_dir=str(self._settings.data_dir.resolve()),
         )
+        told = 0
+        while told < self._stops.lifted:  # also by a re-arm that came meanwhile, and didn't wait for this
+            told = self._stops.lifted
+            await worker.call("rearm", deadline=deadline, upto=told)
 
     async def _ask(self, command: str, most: float = math.inf, **arguments: Any) -> dict[str, Any]:
         deadline = min(most, self._settings.robot_deadline)
