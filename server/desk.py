@@ -91,7 +91,8 @@ class Desk:
         while self._waits(waiting, leave):
             self._news.clear()
             if not await self._news_or_death(self._left()):
-                await self.withdraw(CloseReason.TIMED_OUT)
+                # to its end, also where this robot's wait is broken off because another one has died
+                await asyncio.shield(asyncio.create_task(self.withdraw(CloseReason.TIMED_OUT)))
         judged = self.judged
         if judged is not None and judged.verdict is not Verdict.GOOD:
             self.judged = None
@@ -122,7 +123,7 @@ class Desk:
         else:
             async with self.turn:
                 submission, opened = await asyncio.gather(
-                    self._store.submit_feedback(proposal_id, body, kind=kind), self._try_open(ahead)
+                    self._store.submit_feedback(proposal_id, body, kind=kind), self._try_open(ahead, after=proposal_id)
                 )
         if not submission.duplicate:
             self._take(submission)
@@ -143,7 +144,7 @@ class Desk:
             if undone.withdrawn is not None:
                 self._publish(ProposalClosed(proposal=undone.withdrawn))
             self._show(undone.reopened)
-        self._ledger.taken_back()
+        self._ledger.taken_back(undone.feedback.value)
         self.wake()
         return undone.feedback
 
@@ -227,9 +228,9 @@ class Desk:
         drawn = ahead.result()
         return drawn if self.open is not None and drawn.observation_id == self.open.observation_id else None
 
-    async def _try_open(self, drawn: NewProposal) -> Proposal | None:
+    async def _try_open(self, drawn: NewProposal, *, after: int) -> Proposal | None:
         with contextlib.suppress(StoreError):  # the click was late, or the disk is full: the loop proposes as ever
-            return await self._store.open_proposal(drawn)
+            return await self._store.open_proposal(drawn, after=after)
         return None
 
     def _waits(self, proposal: Proposal | None, leave: asyncio.Event) -> bool:

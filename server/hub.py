@@ -136,7 +136,9 @@ class Hub:
                     f"can't {verb} an experiment while it is evaluated", remedy="wait for its end, or halt it"
                 )
             if robot is not None and robot >= len(runner.stations):
-                raise NotFound("robot of this experiment", robot)
+                raise NotFound(
+                    "robot", robot, remedy=f"the robots of this experiment are 0 to {len(runner.stations) - 1}"
+                )
             # what has happened already is stored first
             await runner.standing.owed.settle()
             if verb in MOVING:

@@ -21,6 +21,7 @@ log = logging.getLogger(__name__)
 @dataclass(frozen=True)
 class _Note:
     number: int
+    good: int
     predicted_feedback: float
     label: int
 
@@ -46,6 +47,7 @@ class Ledger:
         self._changed = changed
         # counted here too: when a click is written down, the next one may be stored already
         self._feedback = experiment.counters.feedback
+        self._good = experiment.counters.good
         self._notes: list[_Note] = []
         self._unsaved = 0
         self._task: asyncio.Task[None] | None = None
@@ -53,7 +55,8 @@ class Ledger:
     def note(self, proposal: Proposal, label: int) -> None:
         """Remember a counted click until `write`."""
         self._feedback += 1
-        self._notes.append(_Note(self._feedback, proposal.predicted_feedback, label))
+        self._good += label == 1
+        self._notes.append(_Note(self._feedback, self._good, proposal.predicted_feedback, label))
         self._unsaved += 1
 
     def write(self) -> None:
@@ -62,9 +65,10 @@ class Ledger:
             notes, self._notes = self._notes, []
             self._soon(self._write(notes, self._crew.metrics))
 
-    def taken_back(self) -> None:
+    def taken_back(self, label: int) -> None:
         """One counted click less."""
         self._feedback -= 1
+        self._good -= label == 1
         self.refresh()
 
     def refresh(self) -> None:
@@ -101,9 +105,11 @@ class Ledger:
     async def _write(self, notes: list[_Note], learner: dict[str, float]) -> None:
         experiment = await self._store.experiment(self._id)
         counters = experiment.counters
-        for note in notes:
-            values = values_of(counters, note.predicted_feedback, note.label) | learner
-            point = await self._store.add_metrics(self._id, note.number, values)
+        values = [_values(note, counters) | learner for note in notes]
+        adding = (
+            self._store.add_metrics(self._id, note.number, each) for note, each in zip(notes, values, strict=True)
+        )
+        for point in await asyncio.gather(*adding):  # in one commit
             self._publish(MetricsAdded(point=point))
         self._changed(experiment)
         if self._unsaved >= self._every:
@@ -130,20 +136,21 @@ class Ledger:
                 await self._store.add_event(self._id, "checkpoint_failed", {"detail": str(error)})
 
 
-def values_of(counters: Counters, predicted_feedback: float, label: int) -> dict[str, float]:
+def _values(note: _Note, counters: Counters) -> dict[str, float]:
     """What a metric point holds beside the learner's own values.
 
-    good_share: of all counted feedback, 0 to 1. violation_ratio: violations over decision steps, which are proposals
-    that were judged; one feedback judges one proposal as long as one trainer decides. The critic's count once they
-    move.
+    note: of the click; its counts are as of then. counters: as of the writing, with what came of that click.
+    good_share: of all feedback counted so far, 0 to 1. violation_ratio: violations over decision steps, which are
+    proposals that were judged; one feedback judges one proposal as long as one trainer decides. The critic's count once
+    they move.
     """
-    decisions = counters.feedback + counters.auto_approved
+    decisions = note.number + counters.auto_approved
     return {
-        "predicted_feedback": predicted_feedback,
-        "label": float(label),
+        "predicted_feedback": note.predicted_feedback,
+        "label": float(note.label),
         "successes": float(counters.successes),
         "executions": float(counters.executions),
         "violations": float(counters.violations),
-        "good_share": counters.good / counters.feedback if counters.feedback else 0.0,
-        "violation_ratio": counters.violations / decisions if decisions else 0.0,
+        "good_share": note.good / note.number,
+        "violation_ratio": counters.violations / decisions,
     }

@@ -1,4 +1,4 @@
-"""How much feedback a run is to have: never more than that is stored, whoever judges, and then it pauses itself."""
+"""How much feedback a run is to have before it pauses itself: no teacher stores more, a person's click may."""
 
 from __future__ import annotations
 

@@ -63,7 +63,14 @@ class Runner:
         )
         self._quota = Quota(store, self.standing)
         shared = Shared(
-            store, self.crew, self.standing, self._ledger, self._quota, self._publish, ask_operator=self._ask_operator
+            store,
+            self.crew,
+            self.standing,
+            self._ledger,
+            self._quota,
+            self._publish,
+            ask_operator=self._ask_operator,
+            stop=self.stop,
         )
         self.stations = tuple(Station(robot, shared) for robot in self.crew.robots)
         self._course = Course(f"experiment {experiment.id}")

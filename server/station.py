@@ -38,6 +38,8 @@ class Shared:
     quota: Quota
     publish: Publish
     ask_operator: AskOperator
+    stop: Callable[[], None]
+    """Emergency stop of every robot of the experiment."""
     beginning: asyncio.Lock = field(default_factory=asyncio.Lock)
     """Episodes begin one after another: each has a number and a seed of its own."""
 
@@ -92,6 +94,8 @@ class Station:
         """Have an episode: a new one where the last has ended, or is to end."""
         if self._reset_wanted:
             self._reset_wanted = False
+            await self.desk.withdraw()
+            self.desk.forget_ahead()
             await self.end_episode("reset")
         if self._episode_open:
             return
@@ -118,6 +122,8 @@ class Station:
         if self.desk.open is None and self.desk.judged is None:
             self.enter(Phase.PROPOSING)
             await self.desk.present(await self.acting.draw(seen))
+            if self._reset_wanted:  # it came meanwhile: there was nothing to withdraw yet
+                await self.desk.withdraw()
 
     async def consider(self) -> None:
         """Let the critic judge the open proposal, where the experiment has a rule for that."""
@@ -131,7 +137,8 @@ class Station:
         """
         if self.desk.open is not None:
             self.enter(Phase.AWAITING_FEEDBACK)
-            self._shared.ledger.write()
+            if not self.experiment.lockstep:  # where all are in step, a round's clicks are written down at its end
+                self._shared.ledger.write()
             asked = self.desk.open
             if self.judge is not None and not self.judge.has_judged(asked):
                 await self.judge.judge(asked, self.acting.call_of(asked), leave)
@@ -147,6 +154,11 @@ class Station:
                 return None
             self.desk.judged = None
             return await self.acting.decide(judged, seen)
+
+    async def written(self) -> None:
+        """Write down what has been counted, and wait for it."""
+        self._shared.ledger.write()
+        await self._shared.ledger.settled()
 
     async def carry_out(self, judged: Proposal, execution: Execution, before: asyncio.Task[None] | None = None) -> None:
         """Run the approved call, and end the episode if that solved or spoiled the task.
@@ -213,7 +225,10 @@ class Station:
         self.desk.forget_ahead()
 
     async def _draw_ahead(self, seen: Seen) -> NewProposal:
-        """What would be proposed next if nothing moves: once the learner is done, its policy stands still."""
+        """What would be proposed next if nothing moves, once the learner is done.
+
+        Alone, its policy stands still from then on; where others are judged, what is drawn is of the policy before.
+        """
         await self._shared.crew.flush()
         return await self.acting.draw(seen)
 
@@ -224,4 +239,5 @@ class Station:
     def _latch_after_damage(self, done: Done) -> None:
         """The robots first, then the database."""
         if self._response(done) is Response.HALT:
-            self._shared.crew.stop()
+            self._shared.stop()
+            self._standing.tell()

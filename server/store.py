@@ -147,9 +147,18 @@ class Store(Reads):
 
     # --- proposals and feedback -------------------------------------------------------------------------------------
 
-    async def open_proposal(self, new: NewProposal) -> schemas.Proposal:
-        """Store a proposal with its observation and pictures. Conflict where it must not be open now."""
-        return await self._write(lambda s: wire.proposal(store_proposals.open_proposal(s, new)))
+    async def open_proposal(self, new: NewProposal, *, after: int | None = None) -> schemas.Proposal:
+        """Store a proposal with its observation and pictures. Conflict where it must not be open now.
+
+        after: only if this proposal was judged, and nothing will move by that.
+        """
+
+        def opened(session: Session) -> schemas.Proposal:
+            if after is not None:
+                store_proposals.must_have_led_to_nothing(session, after)
+            return wire.proposal(store_proposals.open_proposal(session, new))
+
+        return await self._write(opened)
 
     async def close_proposal(self, proposal_id: int, reason: schemas.CloseReason) -> schemas.Proposal:
         """Close without a verdict; a closed one stays as it is."""

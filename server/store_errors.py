@@ -16,8 +16,9 @@ class StoreError(Exception):
 class NotFound(StoreError):
     """There is no row of that id."""
 
-    def __init__(self, what: str, row_id: object) -> None:
-        super().__init__(f"there is no {what} {row_id}", remedy=f"list what there is and use the id of a known {what}")
+    def __init__(self, what: str, row_id: object, *, remedy: str | None = None) -> None:
+        known = f"list what there is and use the id of a known {what}"
+        super().__init__(f"there is no {what} {row_id}", remedy=remedy or known)
 
 
 class Conflict(StoreError):

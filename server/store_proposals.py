@@ -91,6 +91,19 @@ def open_proposal(session: Session, new: NewProposal) -> ProposalRow:
     return row
 
 
+def must_have_led_to_nothing(session: Session, proposal_id: int) -> None:
+    """What was drawn beside a proposal may follow it only if that was judged, not good, and its episode goes on.
+
+    Raises:
+        Conflict: it is open, closed without a verdict, or good; or its scene isn't there any more.
+    """
+    row = load_proposal(session, proposal_id)
+    if row.verdict is None or row.verdict == schemas.Verdict.GOOD.value:
+        raise Conflict(f"proposal {proposal_id} was not judged bad or neutral", remedy="propose anew")
+    if row.episode.ended_at is not None:
+        raise Conflict(f"the episode of proposal {proposal_id} has ended", remedy="observe, then propose anew")
+
+
 def close_proposal(session: Session, proposal_id: int, reason: schemas.CloseReason) -> ProposalRow:
     """Close without a verdict; one that is closed already stays as it is."""
     row = load_proposal(session, proposal_id)

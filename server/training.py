@@ -7,8 +7,9 @@ from collections.abc import Awaitable, Iterable, Sequence
 from typing import TypeVar
 
 from server.crew import Crew
+from server.crew_values import Seen
 from server.quota import Quota
-from server.schemas import Phase, Verdict
+from server.schemas import Phase, Proposal, Verdict
 from server.station import Station
 
 T = TypeVar("T")
@@ -37,7 +38,8 @@ async def train(station: Station, crew: Crew, quota: Quota, leave: asyncio.Event
 async def train_in_step(stations: Sequence[Station], crew: Crew, quota: Quota, leave: asyncio.Event) -> None:
     """All robots in rounds that can be repeated exactly: whatever is stored or learned comes in their order.
 
-    Only what the robots do by themselves goes on at the same time. A round ends when the learner has worked it off.
+    Only what the robots do by themselves goes on at the same time, and the waiting for people, who judge in any order.
+    A round ends when the learner has worked it off.
 
     Raises:
         WorkerDied: a robot, or the learner, went away.
@@ -54,7 +56,7 @@ async def train_in_step(stations: Sequence[Station], crew: Crew, quota: Quota, l
             await station.propose(sight)  # [5, 6]
             await station.consider()
         with crew.together():
-            judged = [await station.query(sight, leave) for station, sight in zip(busy, seen, strict=True)]  # [7, 8]
+            judged = await _query(busy, seen, leave)  # [7, 8]
         started = []
         for station, sight, proposal in zip(busy, seen, judged, strict=True):
             if proposal is not None and proposal.verdict is Verdict.GOOD:
@@ -70,6 +72,21 @@ async def train_in_step(stations: Sequence[Station], crew: Crew, quota: Quota, l
             for station in busy:
                 station.enter(Phase.LEARNING)
             await crew.flush()  # [12]
+            # before the next click is counted: what is written tells of this round, and a checkpoint is of its end
+            await stations[0].written()
+
+
+async def _query(stations: Sequence[Station], seen: Sequence[Seen], leave: asyncio.Event) -> list[Proposal | None]:
+    """What was judged, by robot: in their order by a teacher, in whichever order people like."""
+    if any(station.judge is not None for station in stations):
+        return [await station.query(sight, leave) for station, sight in zip(stations, seen, strict=True)]
+    try:
+        async with asyncio.TaskGroup() as group:
+            waits = zip(stations, seen, strict=True)
+            tasks = [group.create_task(station.query(sight, leave)) for station, sight in waits]
+    except ExceptionGroup as several:  # the others don't wait until they are judged; what lies there stays open
+        raise several.exceptions[0] from None
+    return [task.result() for task in tasks]
 
 
 async def _all(works: Iterable[Awaitable[T]]) -> list[T]:

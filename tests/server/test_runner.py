@@ -159,13 +159,13 @@ async def teach(data_dir: Path, feedback: int, **changes: Any) -> tuple[list[Pro
 
 
 async def test_with_a_teacher_a_seed_repeats_the_whole_run(tmp_path: Path) -> None:
-    one, _, _ = await teach(tmp_path / "one", 25)
-    two, _, _ = await teach(tmp_path / "two", 25)
-    assert len(one) == 25
+    one, _, _ = await teach(tmp_path / "one", 12)
+    two, _, _ = await teach(tmp_path / "two", 12)
+    assert len(one) == 12
     essence = [(p.episode, p.state, p.skill, p.parameters, p.predicted_feedback, p.policy_version) for p in one]
     assert essence == [(p.episode, p.state, p.skill, p.parameters, p.predicted_feedback, p.policy_version) for p in two]
     # the learner had worked off what each label owed before the next proposal
-    assert [p.policy_version for p in one] == [5 * n for n in range(25)]
+    assert [p.policy_version for p in one] == [5 * n for n in range(12)]
 
 
 async def test_an_evaluation_moves_by_stored_approvals_and_trains_nothing(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ import pytest
 
 from server.schemas import CloseReason, ExecutionOutcome, FeedbackStatus, Verdict
 from server.store import Conflict, Store
-from tests.server.databases import begun, click, opened, running
+from tests.server.databases import begun, click, new, opened, running
 
 
 async def _counted(store: Store, experiment_id: int) -> dict[str, int]:
@@ -28,6 +28,32 @@ async def test_a_click_closes_its_proposal_with_a_verdict(store: Store) -> None:
         assert await store.proposal(proposal.id) == submission.closed
         assert await store.feedback(submission.feedback.id) == submission.feedback
     assert await _counted(store, experiment_id) == {"feedback": 3, "good": 1, "neutral": 1, "bad": 1, "late": 0}
+
+
+async def test_what_was_drawn_beside_a_proposal_follows_only_a_verdict_by_which_nothing_moves(store: Store) -> None:
+    experiment_id = await running(store)
+    first = await opened(store, experiment_id)
+    drawn = new(experiment_id)
+    with pytest.raises(Conflict, match="not judged"):
+        await store.open_proposal(drawn, after=first.id)
+    await store.submit_feedback(first.id, click(-1))
+    second = await store.open_proposal(drawn, after=first.id)
+    await store.submit_feedback(second.id, click(1))
+    with pytest.raises(Conflict, match="not judged"):
+        await store.open_proposal(drawn, after=second.id)
+    # a reset overtakes the click: the scene is another one, and so is the episode
+    third = await opened(store, experiment_id)
+    await store.transition(experiment_id, "reset")
+    late, following = await asyncio.gather(
+        store.submit_feedback(third.id, click(-1)), store.open_proposal(drawn, after=third.id), return_exceptions=True
+    )
+    assert not isinstance(late, BaseException)
+    assert late.feedback.status is FeedbackStatus.LATE
+    assert isinstance(following, Conflict)
+    await store.begin_episode(experiment_id, 2)
+    with pytest.raises(Conflict, match="episode"):
+        await store.open_proposal(drawn, after=first.id)
+    assert await store.open_proposals(experiment_id) == []
 
 
 async def test_the_same_click_again_is_stored_once(store: Store) -> None:
