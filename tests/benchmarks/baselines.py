@@ -23,11 +23,10 @@ from robot_adapters import low_level, registry
 from robot_adapters.base import Adapter, SkillCall, SkillResult
 from robot_adapters.low_level import LowLevelEnv
 from robot_adapters.tasks.base import state_bounds
+from tests.benchmarks import _clicks as clicks
 from tests.benchmarks.result import Result
 
 TASK = "reaching"
-FIRST_SEED = 10
-"""The preset was chosen on seeds 0 to 3; these it has not seen."""
 ROLLOUTS, ALLOWED_FAILURES = 20, 2
 SAC_STEPS, TAMER_STEPS, MAPLE_CALLS = 8000, 8000, 1500
 EVERY = {"sac": 200, "tamer": 200, "maple": 25}
@@ -39,7 +38,7 @@ Needed = int | None
 
 def run() -> Result:
     """A line for each baseline."""
-    preset, seeds = os.environ.get("BENCH_PRESET", "quick"), int(os.environ.get("BENCH_SEEDS", "3"))
+    preset, seeds = os.environ.get("BENCH_PRESET", "quick"), clicks.seeds(3)
     threads = torch.get_num_threads()
     torch.set_num_threads(1)
     needed: dict[str, list[Needed]] = {"sac": [], "tamer": [], "maple": []}
@@ -51,7 +50,7 @@ def run() -> Result:
         seconds[name] += time.perf_counter() - started
 
     try:
-        for seed in range(FIRST_SEED, FIRST_SEED + seeds):
+        for seed in seeds:
             env, tried = low_level.make(TASK, "kinematic", seed=seed), low_level.make(TASK, "kinematic")
             oracle = _sac(env, preset, seed)
             timed("sac", partial(_steps, oracle, env, tried, SAC_STEPS, EVERY["sac"], stop=False))

@@ -26,7 +26,7 @@ from robot_adapters.tasks.base import position_fields, state_bounds
 from server.auto_approval import Case, Decision, decide
 from server.schemas import Mode
 from server.schemas_trust import AutoApproval
-from tests.benchmarks._clicks import FIRST_SEED
+from tests.benchmarks import _clicks as clicks
 from tests.benchmarks.clicks_kinematic import BARS
 from tests.benchmarks.result import Result
 
@@ -45,7 +45,7 @@ class Judged:
 
 def run() -> Result:
     """A line for each task; the value is the error over all of them."""
-    seeds = range(FIRST_SEED, FIRST_SEED + int(os.environ.get("BENCH_SEEDS", "5")))
+    seeds = clicks.seeds(5)
     noise = float(os.environ.get("BENCH_NOISE", "0"))
     threads = torch.get_num_threads()
     torch.set_num_threads(1)

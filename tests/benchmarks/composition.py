@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import os
 import statistics
 
 import torch
@@ -15,10 +14,9 @@ from robot_adapters.base import Adapter
 from robot_adapters.kinematic import KinematicSettings
 from robot_adapters.kinematic.adapter import KinematicAdapter
 from robot_adapters.tasks.base import Task
+from tests.benchmarks import _clicks as clicks
 from tests.benchmarks.result import Result
 
-FIRST_SEED = 10
-"""Settings were looked at on seeds below."""
 ROLLOUTS = 50
 
 
@@ -29,7 +27,7 @@ def kinematic(task: Task) -> Adapter:
 
 def run() -> Result:
     """The value is the mean success of the composed critics over all scenes; the baseline that of undivided ones."""
-    seeds = range(FIRST_SEED, FIRST_SEED + int(os.environ.get("BENCH_SEEDS", "1")))
+    seeds = clicks.seeds(1)
     torch.set_num_threads(1)
     outcomes = composition.run(kinematic, seeds, rollouts=ROLLOUTS)
     return Result(

@@ -15,7 +15,8 @@ from collections.abc import Sequence
 
 import torch
 
-from tests.benchmarks._clicks import FIRST_SEED, Setup, train
+from tests.benchmarks import _clicks as clicks
+from tests.benchmarks._clicks import Setup, train
 from tests.benchmarks.clicks_kinematic import BARS
 from tests.benchmarks.result import Result
 
@@ -25,7 +26,7 @@ WAYS = ("value", "uncertainty")
 
 def run() -> Result:
     """A line for each task, way and number of critics."""
-    seeds = range(FIRST_SEED, FIRST_SEED + int(os.environ.get("BENCH_SEEDS", "10")))
+    seeds = clicks.seeds(10)
     tasks = os.environ.get("BENCH_TASKS", ",".join(BARS)).split(",")
     threads = torch.get_num_threads()
     torch.set_num_threads(1)

@@ -5,13 +5,13 @@
 
 from __future__ import annotations
 
-import os
 import statistics
 
 import torch
 
 from agent.study import imitation
-from tests.benchmarks.composition import FIRST_SEED, ROLLOUTS, kinematic
+from tests.benchmarks import _clicks as clicks
+from tests.benchmarks.composition import ROLLOUTS, kinematic
 from tests.benchmarks.result import Result
 
 STEPS = 40
@@ -20,7 +20,7 @@ STEPS = 40
 
 def run() -> Result:
     """The value is SEED's mean success over all rows; the baseline that of cloning with key points."""
-    seeds = range(FIRST_SEED, FIRST_SEED + int(os.environ.get("BENCH_SEEDS", "1")))
+    seeds = clicks.seeds(1)
     torch.set_num_threads(1)
     outcomes = imitation.run(kinematic, seeds, steps=STEPS, rollouts=ROLLOUTS)
     return Result(
