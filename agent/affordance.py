@@ -6,10 +6,7 @@ import numpy as np
 
 from agent.algorithm import Problem
 from robot_adapters.base import Array, SkillCall
-from robot_adapters.tasks.base import Task
-
-NEAR = 0.05
-"""m in the xy plane: what counts as near a task-relevant key point (the paper gives no number; two block widths)."""
+from robot_adapters.tasks.base import NEAR, Task
 
 
 def near(about: Problem | Task, state: Array, call: SkillCall) -> bool:

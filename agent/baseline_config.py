@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from agent.algorithm import AgentError, Problem
+from agent.config import HiddenLayers, HiddenSize, ParameterEntropy, SkillEntropy
 from robot_adapters.base import Array
 
 if TYPE_CHECKING:
@@ -54,8 +55,8 @@ class BaselineSettings(BaseModel):
     replay_size: Annotated[
         int, Field(ge=4, le=10_000_000, description="newest transitions that are remembered (MAPLE: 1,000,000)")
     ] = 1_000_000
-    hidden_size: Annotated[int, Field(ge=1, le=4096, description="units of a hidden layer (MAPLE: 256)")] = 256
-    hidden_layers: Annotated[int, Field(ge=1, le=8, description="hidden layers of each network (MAPLE: 2)")] = 2
+    hidden_size: HiddenSize = 256
+    hidden_layers: HiddenLayers = 2
     initial_temperature: Annotated[
         float, Field(gt=0, le=100, description="entropy temperatures at the start (MAPLE: 1); they are learned")
     ] = 1.0
@@ -146,21 +147,8 @@ class MapleSettings(BaselineSettings):
         float, Field(gt=0, le=0.1, description="Adam step size of critics, actors and temperatures (table: 3e-3)")
     ] = 3e-3
     target_rate: _TargetRate = 1e-3
-    skill_entropy: Annotated[
-        float,
-        Field(
-            ge=0, le=1, description="target entropy of the skill actor as a share of log(skills) (MAPLE's script: 0.5)"
-        ),
-    ] = 0.5
-    parameter_entropy: Annotated[
-        float,
-        Field(
-            ge=-20,
-            le=0.69,
-            description="target entropy of a parameter actor in nats for each parameter, parameters scaled to [-1, 1] "
-            "(MAPLE and SAC: -1; a uniform distribution has log 2)",
-        ),
-    ] = -1.0
+    skill_entropy: SkillEntropy = 0.5
+    parameter_entropy: ParameterEntropy = -1.0
     exploring_updates: Annotated[
         int,
         Field(

@@ -20,7 +20,7 @@ from agent.encoding import Encoder
 from agent.grounding import grounding
 from agent.networks import Layout, Networks
 from agent.replay import Batch, Replay
-from agent.symmetry import Symmetries
+from agent.symmetry import symmetries
 from robot_adapters.base import Array, SkillCall
 
 INSIDE = 0.999
@@ -61,17 +61,7 @@ class Cloning:
         )
         actors = [*self._networks.skill_actor.parameters(), *self._networks.parameter_actors.parameters()]
         self._optimiser = torch.optim.Adam(actors, lr=settings.learning_rate)
-        asked = settings.augment_translation > 0 or settings.augment_flip or settings.augment_rotation
-        self._symmetries = (
-            Symmetries(
-                problem,
-                translation=settings.augment_translation,
-                flip=settings.augment_flip,
-                rotation=settings.augment_rotation,
-            )
-            if asked and any(self._encoder.keypoint_counts)
-            else None
-        )
+        self._symmetries = symmetries(problem, settings, self._encoder)
 
     def fit(self, shown: Sequence[Demonstration], steps: int) -> list[float]:
         """So many gradient steps on the negative log-likelihood; the loss of each, in nats.

@@ -13,6 +13,23 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from agent.algorithm import AgentError, Algorithm, Problem
 
+# of SEED and of what it is compared with (agent.baseline_config)
+HiddenSize = Annotated[int, Field(ge=1, le=4096, description="units of a hidden layer (MAPLE: 256)")]
+HiddenLayers = Annotated[int, Field(ge=1, le=8, description="hidden layers of each network (MAPLE: 2)")]
+SkillEntropy = Annotated[
+    float,
+    Field(ge=0, le=1, description="target entropy of the skill actor as a share of log(skills) (MAPLE's script: 0.5)"),
+]
+ParameterEntropy = Annotated[
+    float,
+    Field(
+        ge=-20,
+        le=0.69,
+        description="target entropy of a parameter actor in nats for each parameter, parameters scaled to [-1, 1] "
+        "(MAPLE and SAC: -1; a uniform distribution has log 2)",
+    ),
+]
+
 
 class SeedSettings(BaseModel):
     """Settings of SEED. The defaults are the simulation column of the paper's hyper-parameter table.
@@ -63,8 +80,8 @@ class SeedSettings(BaseModel):
             "the real robot); 0 turns it off",
         ),
     ] = 0.0
-    hidden_size: Annotated[int, Field(ge=1, le=4096, description="units of a hidden layer (MAPLE: 256)")] = 256
-    hidden_layers: Annotated[int, Field(ge=1, le=8, description="hidden layers of each network (MAPLE: 2)")] = 2
+    hidden_size: HiddenSize = 256
+    hidden_layers: HiddenLayers = 2
     critics: Annotated[
         int,
         Field(
@@ -77,21 +94,8 @@ class SeedSettings(BaseModel):
     initial_temperature: Annotated[
         float, Field(gt=0, le=100, description="both entropy temperatures at the start (MAPLE: 1); they are learned")
     ] = 1.0
-    skill_entropy: Annotated[
-        float,
-        Field(
-            ge=0, le=1, description="target entropy of the skill actor as a share of log(skills) (MAPLE's script: 0.5)"
-        ),
-    ] = 0.5
-    parameter_entropy: Annotated[
-        float,
-        Field(
-            ge=-20,
-            le=0.69,
-            description="target entropy of a parameter actor in nats for each parameter, parameters scaled to [-1, 1] "
-            "(MAPLE and SAC: -1; a uniform distribution has log 2)",
-        ),
-    ] = -1.0
+    skill_entropy: SkillEntropy = 0.5
+    parameter_entropy: ParameterEntropy = -1.0
     keypoints: Annotated[
         Literal["none", "all", "skill"],
         Field(

@@ -22,9 +22,9 @@ from agent.algorithm import Label, Problem, Suggestion
 from agent.baseline_config import MapleSettings
 from agent.encoding import Encoder
 from agent.gaussian import checked_reward
-from agent.networks import Layout, Networks
+from agent.networks import Layout, Networks, dice
 from agent.proposing import choose
-from agent.resuming import Progress, dice
+from agent.resuming import Progress
 from robot_adapters.base import Array, SkillCall
 
 CRITICS = 2

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
+import numpy as np
 import torch
 from torch import Tensor, nn
 
@@ -20,6 +21,11 @@ LOG_STD_MIN, LOG_STD_MAX = -20.0, 2.0  # SAC's and MAPLE's bounds
 LOGIT_BOUND = 10.0  # MAPLE: keeps every skill's probability above zero
 ACTOR_OUTPUT_RANGE = 1e-3  # MAPLE: a fresh actor is near uniform over skills and centred in the workspace
 CRITIC_OUTPUT_RANGE = 3e-3  # MAPLE
+
+
+def dice(seed: np.random.SeedSequence) -> torch.Generator:
+    """Torch's random state for a seed."""
+    return torch.Generator().manual_seed(int(seed.generate_state(1, np.uint32)[0]))
 
 
 class StackedMLP(nn.Module):

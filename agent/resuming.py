@@ -16,10 +16,8 @@ from torch import Tensor, nn
 
 from agent import checkpoint
 from agent.algorithm import AgentError, CheckpointError
+from agent.arena import ADAM_STATE
 from agent.td import Memory, Schedule
-
-ADAM_STATE = ("step", "exp_avg", "exp_avg_sq")
-"""What torch's Adam keeps of each parameter."""
 
 
 @dataclass
@@ -126,8 +124,3 @@ class Progress:
             for part, network in self.networks.items()
             for name, tensor in network.named_parameters()
         }
-
-
-def dice(seed: np.random.SeedSequence) -> torch.Generator:
-    """Torch's random state for a seed."""
-    return torch.Generator().manual_seed(int(seed.generate_state(1, np.uint32)[0]))

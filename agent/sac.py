@@ -17,8 +17,8 @@ import torch
 from agent import losses, td
 from agent.baseline_config import SacSettings
 from agent.gaussian import GaussianActorCritic, checked_action, checked_reward, low_level_encoder, values_of
-from agent.networks import CRITIC_OUTPUT_RANGE, StackedMLP
-from agent.resuming import Progress, dice
+from agent.networks import CRITIC_OUTPUT_RANGE, StackedMLP, dice
+from agent.resuming import Progress
 from robot_adapters.base import Array
 
 CRITICS = 2

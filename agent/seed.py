@@ -24,10 +24,10 @@ from agent.consensus import Consensus
 from agent.encoding import Encoder
 from agent.grounding import grounding
 from agent.kernels import no_pause
-from agent.networks import Layout, Networks
+from agent.networks import Layout, Networks, dice
 from agent.proposing import Choice, choose
 from agent.replay import Batch, Replay
-from agent.symmetry import Symmetries
+from agent.symmetry import symmetries
 from agent.training import Objective, Trainer
 from robot_adapters.base import Array
 
@@ -43,8 +43,8 @@ class Seed:
         self._settings = settings
         self._encoder = Encoder(problem, keypoints=settings.keypoints)
         initial, proposing, training, drawing = np.random.SeedSequence(seed).spawn(4)
-        self._proposing = _generator(proposing)
-        self._training = _generator(training)
+        self._proposing = dice(proposing)
+        self._training = dice(training)
         self._drawing = np.random.default_rng(drawing)
         layout = Layout(self._encoder.state_size, self._encoder.parameter_counts)
         self._grounding = grounding(
@@ -54,13 +54,13 @@ class Seed:
             relative=settings.relative_critic,
             radius=settings.grounding_radius,
         )
-        self._symmetries = _symmetries(problem, settings, self._encoder)
+        self._symmetries = symmetries(problem, settings, self._encoder)
         self._networks = Networks(
             layout,
             hidden=[settings.hidden_size] * settings.hidden_layers,
             critics=settings.critics,
             initial_temperature=settings.initial_temperature,
-            generator=_generator(initial),
+            generator=dice(initial),
             grounding=self._grounding,
         )
         objective = Objective(
@@ -181,11 +181,11 @@ class Seed:
     def drawn(learners: Sequence[Seed]) -> list[tuple[Batch, torch.Tensor]]:
         """`draw` for several learners of one task and setting, each by its own dice; moved in one pass."""
         batches = [each._replay.sample(each._settings.batch_size, each._drawing) for each in learners]
-        symmetries = learners[0]._symmetries
-        if symmetries is not None:
-            motions = [symmetries.motions(batch, each._drawing) for each, batch in zip(learners, batches, strict=True)]
+        moving = learners[0]._symmetries
+        if moving is not None:
+            motions = [moving.motions(batch, each._drawing) for each, batch in zip(learners, batches, strict=True)]
             shift, flip, angle = (np.concatenate(part) for part in zip(*motions, strict=True))
-            batches = symmetries.moved(Batch.joined(batches), shift, flip, angle).split(len(batches))
+            batches = moving.moved(Batch.joined(batches), shift, flip, angle).split(len(batches))
         return [(batch, each._noise(len(batch.skills))) for each, batch in zip(learners, batches, strict=True)]
 
     def _noise(self, size: int) -> torch.Tensor:
@@ -302,19 +302,6 @@ class Seed:
         }
 
 
-def _symmetries(problem: Problem, settings: SeedSettings, encoder: Encoder) -> Symmetries | None:
-    """None where nothing is augmented, and where the state names no objects: what matters may then stand still."""
-    asked = settings.augment_translation > 0 or settings.augment_flip or settings.augment_rotation
-    if not asked or not any(encoder.keypoint_counts):
-        return None
-    return Symmetries(
-        problem,
-        translation=settings.augment_translation,
-        flip=settings.augment_flip,
-        rotation=settings.augment_rotation,
-    )
-
-
 def _grounded_fingerprint(settings: SeedSettings, encoder: Encoder) -> Mapping[str, Any]:
     """What key points change of the networks; nothing where they see none, so that older checkpoints still fit."""
     if settings.keypoints == "none":
@@ -324,7 +311,3 @@ def _grounded_fingerprint(settings: SeedSettings, encoder: Encoder) -> Mapping[s
         "relative_critic": settings.relative_critic,
         "grounded_actor": [settings.grounded_actor, settings.grounding_radius],
     }
-
-
-def _generator(seed: np.random.SeedSequence) -> torch.Generator:
-    return torch.Generator().manual_seed(int(seed.generate_state(1, np.uint32)[0]))

@@ -16,6 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from agent.algorithm import Problem
+from agent.config import SeedSettings
+from agent.encoding import Encoder
 from agent.grounding import column, located
 from agent.replay import Batch, Float32
 
@@ -102,3 +104,16 @@ class Symmetries:
                 turned = (turned - middle[yaw] + math.pi / 2) % math.pi - math.pi / 2
                 moved[rows, yaw] = turned / half[yaw]
         return moved.astype(np.float32)
+
+
+def symmetries(problem: Problem, settings: SeedSettings, encoder: Encoder) -> Symmetries | None:
+    """None where nothing is augmented, and where the state names no objects: what matters may then stand still."""
+    asked = settings.augment_translation > 0 or settings.augment_flip or settings.augment_rotation
+    if not asked or not any(encoder.keypoint_counts):
+        return None
+    return Symmetries(
+        problem,
+        translation=settings.augment_translation,
+        flip=settings.augment_flip,
+        rotation=settings.augment_rotation,
+    )

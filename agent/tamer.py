@@ -20,8 +20,9 @@ from agent import losses, td
 from agent.algorithm import AgentError
 from agent.baseline_config import TamerSettings
 from agent.gaussian import GaussianActorCritic, checked_action, checked_reward, low_level_encoder
+from agent.networks import dice
 from agent.replay import shares
-from agent.resuming import Progress, dice
+from agent.resuming import Progress
 from agent.sac import Sac
 from robot_adapters.base import Array
 

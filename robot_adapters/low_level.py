@@ -17,7 +17,7 @@ from robot_adapters import registry
 from robot_adapters.base import Array, InvalidCall, SafetyViolation, Scene, Unavailable
 from robot_adapters.skills import LOWEST, Arm
 from robot_adapters.tasks import table
-from robot_adapters.tasks.base import Task, state_bounds
+from robot_adapters.tasks.base import NEAR, Task, state_bounds
 from robot_adapters.tasks.episode import Episode
 from robot_adapters.tasks.low_level import low_level_fields, low_level_state
 
@@ -28,8 +28,6 @@ TURN = 0.5
 STEPS_A_SKILL = 100
 """Low-level steps that one skill stands for (paper, section 'Results', on safety). It states no horizon: ours is what
 the same episode takes by skills."""
-NEAR = 0.05
-"""m in x and y from a place where a skill acts on the task's objects, within which nothing is penalised."""
 PENALTY = -0.1
 """Affordance penalty (paper, section 'Facilitating learning with affordances')."""
 

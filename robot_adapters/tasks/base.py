@@ -10,6 +10,9 @@ import numpy as np
 from robot_adapters.base import Array, SafetyViolation, Scene, SkillCall, SkillSpec
 from robot_adapters.tasks.layout import LayoutSettings
 
+NEAR = 0.05
+"""m in the xy plane: what counts as near a task-relevant key point (the paper gives no number; two block widths)."""
+
 
 @dataclass(frozen=True)
 class StateField:

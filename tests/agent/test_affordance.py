@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from agent.affordance import NEAR, near
+from agent.affordance import near
 from robot_adapters import registry
 from robot_adapters.base import SkillCall
+from robot_adapters.tasks.base import NEAR
 from tests.agent.problems import of_task, problem
 
 STATE = np.array([0.5, 0.0, -0.09, 0.7, 0.1, -0.087])
