@@ -16,6 +16,9 @@ NPM := $(BIN)/python scripts/node.py npm
 INSTALL_FROM := pyproject.toml constraints.txt scripts/install.sh scripts/node.py
 WEB_SOURCES := $(shell find web -type d \( -name node_modules -o -name test \) -prune -o -type f -print 2>/dev/null)
 PYTEST_ARGS ?=
+# Most tests wait for processes, so more of them than cores go on at once. A file stays on one worker, and files in their
+# order: the browser's come last (tests/conftest.py).
+PYTEST_WORKERS ?= 4
 
 .PHONY: help run setup setup-dev test check check-web check-docker test-web bench api clean
 
@@ -68,7 +71,7 @@ test: setup-dev
 	@bash scripts/system.sh test $(PYTHON)
 	@$(MAKE) --no-print-directory check test-web
 	@echo "==> Tests"
-	@$(BIN)/python -m pytest $(PYTEST_ARGS)
+	@$(BIN)/python -m pytest -n $(PYTEST_WORKERS) --dist loadfile --no-loadscope-reorder $(PYTEST_ARGS)
 
 check: setup-dev
 	@echo "==> Lint and types"

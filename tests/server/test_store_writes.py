@@ -213,6 +213,8 @@ def test_no_acknowledged_click_is_lost_when_the_process_is_killed(url: str, tmp_
         with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
             assert process.stdout is not None
             for count, line in enumerate(process.stdout, 1):
+                if not line.endswith("\n"):  # killed in the middle of saying it
+                    break
                 click_id, proposal_id, value = line.split()
                 acknowledged[click_id] = (int(proposal_id), int(value))
                 if count == enough:
