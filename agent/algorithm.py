@@ -107,7 +107,10 @@ class Algorithm(Protocol):
         """Fill the replay after `load`: labels up to `last_label_id` owe no updates, newer ones do."""
 
     def forget(self, label_id: int) -> None:
-        """Take an undone label out of the replay; unknown ids are ignored."""
+        """Take a label out of the replay, until it is relabelled; unknown ids are ignored."""
+
+    def relabel(self, label: Label) -> None:
+        """Hold this label in the place of the one of the same id; if none is held, take it. It owes no steps."""
 
     def update(self) -> Mapping[str, float] | None:
         """One gradient step; its metrics, or None where there is nothing to learn from yet."""

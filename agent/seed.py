@@ -153,6 +153,20 @@ class Seed:
             self._replay.forget(label_id)
             self._forgotten.add(label_id)
 
+    def relabel(self, label: Label) -> None:
+        """Hold this label in the place of the one of the same id; if none is held, take it. It owes no steps.
+
+        What it changes is worked off in spare steps, and in those that later labels owe.
+
+        Raises:
+            AgentError: it doesn't fit the task. Nothing has changed.
+        """
+        entry = self._encoder.entry(label, affordance_penalty=self._settings.affordance_penalty)
+        self._replay.forget(label.id)
+        self._replay.add(entry)
+        self._forgotten.discard(label.id)
+        self._spare += self._settings.think_time_updates
+
     def update(self) -> Mapping[str, float] | None:
         """One gradient step on critic, actors and temperatures; None where there is nothing to learn from yet.
 

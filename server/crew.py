@@ -53,6 +53,7 @@ class Crew:
         self._together: list[StoredLabel] | None = None
         self._missed: list[StoredLabel] = []
         self._forgotten: list[int] = []
+        self._corrected: list[StoredLabel] = []
         self._told: set[asyncio.Task[None]] = set()
         self.metrics: dict[str, float] = {}
         """What the learner's newest gradient step reported."""
@@ -159,6 +160,16 @@ class Crew:
             self._together = [label for label in self._together if label.feedback_id != feedback_id]
         self._tell_learner("forget", self._forgotten, [feedback_id], feedback_id=feedback_id)
 
+    def relabel(self, feedback_id: int, label: StoredLabel | None) -> None:
+        """Have the learner hold this label in the place of the one it has of this feedback; None: none at all."""
+        if label is None:
+            self.forget(feedback_id)
+            return
+        if self._together is not None and any(held.feedback_id == feedback_id for held in self._together):
+            self._together = [label if held.feedback_id == feedback_id else held for held in self._together]
+            return
+        self._tell_learner("relabel", self._corrected, [label], label=_wire(label))
+
     async def propose(self, state: tuple[float, ...], *, deterministic: bool = False) -> Idea:
         """Suggest a call for this state."""
         reply = await self._learner("propose", QUICK, state=list(state), deterministic=deterministic)
@@ -193,6 +204,7 @@ class Crew:
         experiment, deadline = self._experiment, self._settings.learner_deadline
         self._missed.clear()
         self._forgotten.clear()
+        self._corrected.clear()
         await learner.call(
             "configure",
             deadline=deadline,
@@ -208,12 +220,15 @@ class Crew:
         restored = await learner.call("restore", deadline=deadline, labels=[_wire(label) for label in labels])
         self.policy_version = restored["policy_version"]
         # what came while this went on; the learner knows an id that it has seen
-        while self._missed or self._forgotten:
+        while self._missed or self._forgotten or self._corrected:
             missed, self._missed = self._missed, []
             forgotten, self._forgotten = self._forgotten, []
+            corrected, self._corrected = self._corrected, []
             await learner.call("add", deadline=deadline, labels=[_wire(label) for label in missed])
             for feedback_id in forgotten:
                 await learner.call("forget", deadline=deadline, feedback_id=feedback_id)
+            for label in corrected:
+                await learner.call("relabel", deadline=deadline, label=_wire(label))
 
     async def _load_newest(self, learner: Worker) -> None:
         """Load the newest checkpoint; without a sound one the labels alone rebuild the learner."""

@@ -16,11 +16,12 @@ from server.acting import Publish
 from server.auto_approval import Decision
 from server.crew import Crew
 from server.ledger import Ledger
-from server.messages import FeedbackStored, FeedbackUndone, ProposalClosed, ProposalOpened
+from server.messages import FeedbackRelabelled, FeedbackStored, FeedbackUndone, ProposalClosed, ProposalOpened
 from server.robots import Robot
 from server.schemas import CloseReason, Experiment, Feedback, FeedbackCreate, FeedbackStatus, Mode, Proposal, Verdict
+from server.schemas_labels import RelabelCreate, label_of
 from server.store import Store, StoreError
-from server.store_values import NewProposal, StoredLabel, Submission
+from server.store_values import NewProposal, Relabelled, Submission
 from server.worker import WorkerDied
 
 
@@ -51,7 +52,6 @@ class Desk:
         """Presenting, starting an execution, taking a click back and pausing exclude each other."""
         self._news = asyncio.Event()
         self._since = 0.0
-        self._votes: list[StoredLabel] = []
         self._ahead: asyncio.Task[NewProposal] | None = None
 
     async def present(self, drawn: NewProposal) -> None:
@@ -117,7 +117,7 @@ class Desk:
 
         What will be proposed after a bad click is often known by then (`draw_ahead`); it is committed with the click.
         """
-        ahead = self._take_ahead() if body.value != 1 and self._is_open(proposal_id) else None
+        ahead = self._take_ahead() if body.label != 1 and self._is_open(proposal_id) else None
         if ahead is None:
             submission, opened = await self._store.submit_feedback(proposal_id, body, kind=kind), None
         else:
@@ -144,9 +144,18 @@ class Desk:
             if undone.withdrawn is not None:
                 self._publish(ProposalClosed(proposal=undone.withdrawn))
             self._show(undone.reopened)
-        self._ledger.taken_back(undone.feedback.value)
+        self._ledger.recount(label_of(undone.feedback.value), None)
         self.wake()
         return undone.feedback
+
+    async def relabel(self, feedback_id: int, body: RelabelCreate, *, anybodys: bool) -> Relabelled:
+        """Correct a click on a closed proposal, and have the learner follow. Nothing is judged or moved by it."""
+        relabelled = await self._store.relabel(feedback_id, body, anybodys=anybodys)
+        if not relabelled.duplicate:
+            self._crew.relabel(feedback_id, relabelled.label)
+            self._publish(FeedbackRelabelled(feedback=relabelled.feedback))
+            self._ledger.recount(relabelled.before, relabelled.after)
+        return relabelled
 
     async def withdraw(self, reason: CloseReason = CloseReason.WITHDRAWN) -> None:
         """Close the open proposal without a verdict; if a click was quicker, it counts."""
@@ -196,13 +205,10 @@ class Desk:
             return
         proposal = closed if closed is not None else self.open
         if proposal is not None and proposal.id == feedback.proposal_id:
-            self._votes.append(_label(proposal, feedback))
-            self._ledger.note(proposal, feedback.value)
+            self._ledger.note(proposal, label_of(feedback.value))
         if closed is not None:
-            self.open, self.judged = None, closed
-            # without a verdict there is nothing to learn: the votes on a proposal come together
-            votes, self._votes = self._votes, []
-            self._crew.learn(votes)
+            self.open, self.judged = None, closed if closed.verdict is not None else None
+            self._crew.learn(submission.labels)  # those on a proposal come together, once it has a verdict
         good = closed is not None and closed.verdict is Verdict.GOOD
         moves = good and self._experiment().mode is Mode.EXECUTE_APPROVED
         self._publish(FeedbackStored(feedback=feedback, undoable=not moves))
@@ -210,7 +216,7 @@ class Desk:
             self._publish(ProposalClosed(proposal=closed))
 
     def _show(self, proposal: Proposal) -> None:
-        self.open, self._votes = proposal, []
+        self.open = proposal
         self._since = time.monotonic()
         self._publish(ProposalOpened(proposal=proposal))
 
@@ -257,9 +263,3 @@ class Desk:
             if isinstance(death := wait.result(), WorkerDied):
                 raise death
         return bool(done)
-
-
-def _label(proposal: Proposal, feedback: Feedback) -> StoredLabel:
-    """What the learner is told of a click."""
-    parameters = tuple(proposal.parameters.values())
-    return StoredLabel(feedback.id, tuple(proposal.state), proposal.skill, parameters, feedback.value)

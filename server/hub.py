@@ -26,6 +26,7 @@ from server.schemas import (
     Lifecycle,
     Proposal,
 )
+from server.schemas_labels import RelabelCreate
 from server.settings import Settings
 from server.store import Conflict, NotFound, Receipt, Store, StoreError
 
@@ -228,6 +229,24 @@ class Hub:
         feedback = await self.store.feedback(feedback_id)
         desk = await self._desk_of(await self.store.proposal(feedback.proposal_id))
         return await asyncio.shield(asyncio.create_task(desk.undo(feedback_id)))
+
+    async def relabel(
+        self, feedback_id: int, body: RelabelCreate, experiment_id: int | None = None, *, anybodys: bool = False
+    ) -> tuple[Feedback, bool]:
+        """Correct a click on a closed proposal; the learner follows, the verdict and what moved by it stay.
+
+        anybodys: also one that somebody else gave. The second value: the same correction was stored before.
+
+        Raises:
+            NotFound: no such feedback, or not one of `experiment_id`. Conflict: it can't be corrected, and why.
+        """
+        feedback = await self.store.feedback(feedback_id)
+        if experiment_id is not None and feedback.experiment_id != experiment_id:
+            raise NotFound("feedback of this experiment", feedback_id)
+        desk = await self._desk_of(await self.store.proposal(feedback.proposal_id))
+        correcting = desk.relabel(feedback_id, body, anybodys=anybodys)
+        relabelled = await asyncio.shield(asyncio.create_task(correcting))
+        return relabelled.feedback, relabelled.duplicate
 
     # --- inside -------------------------------------------------------------------------------------------------
 

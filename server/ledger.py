@@ -52,8 +52,11 @@ class Ledger:
         self._unsaved = 0
         self._task: asyncio.Task[None] | None = None
 
-    def note(self, proposal: Proposal, label: int) -> None:
-        """Remember a counted click until `write`."""
+    def note(self, proposal: Proposal, label: int | None) -> None:
+        """Remember a counted click until `write`; one that says nothing is no feedback."""
+        if label is None:
+            self.refresh()
+            return
         self._feedback += 1
         self._good += label == 1
         self._notes.append(_Note(self._feedback, self._good, proposal.predicted_feedback, label))
@@ -65,10 +68,10 @@ class Ledger:
             notes, self._notes = self._notes, []
             self._soon(self._write(notes, self._crew.metrics))
 
-    def taken_back(self, label: int) -> None:
-        """One counted click less."""
-        self._feedback -= 1
-        self._good -= label == 1
+    def recount(self, before: int | None, after: int | None) -> None:
+        """A click that was counted counts as something else now, or, without an `after`, for nothing."""
+        self._feedback += (after is not None) - (before is not None)
+        self._good += (after == 1) - (before == 1)
         self.refresh()
 
     def refresh(self) -> None:

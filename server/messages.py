@@ -8,7 +8,6 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from server.schemas import (
-    ClickId,
     Evaluation,
     Execution,
     Experiment,
@@ -17,10 +16,9 @@ from server.schemas import (
     Proposal,
     RobotIndex,
     RowId,
-    TrainerName,
-    Value,
     Wire,
 )
+from server.schemas_labels import Answer, ClickId, RelabelCreate, TrainerName
 from server.schemas_problems import Problem
 
 # --- stream: server to client -------------------------------------------------------------------------------------
@@ -73,6 +71,13 @@ class FeedbackUndone(Wire):
     """A click was taken back; its proposal is open again (a `proposal_opened` follows)."""
 
     type: Literal["feedback_undone"] = "feedback_undone"
+    feedback: Feedback
+
+
+class FeedbackRelabelled(Wire):
+    """A click on a closed proposal was corrected: the learner follows, its verdict and what moved by it stay."""
+
+    type: Literal["feedback_relabelled"] = "feedback_relabelled"
     feedback: Feedback
 
 
@@ -145,6 +150,7 @@ StreamEvent = Annotated[
     | ProposalClosed
     | FeedbackStored
     | FeedbackUndone
+    | FeedbackRelabelled
     | ExecutionStarted
     | ExecutionEnded
     | MetricsAdded
@@ -177,8 +183,15 @@ class ClientFeedback(Wire):
     type: Literal["feedback"]
     click_id: ClickId
     proposal_id: RowId
-    value: Value
+    value: Answer
     trainer: TrainerName = "local"
+
+
+class ClientRelabel(RelabelCreate):
+    """Correct a click on a closed proposal. It never causes a motion and never changes a verdict."""
+
+    type: Literal["relabel"]
+    feedback_id: RowId
 
 
 class ClientUndo(Wire):
@@ -209,5 +222,6 @@ class ClientPing(Wire):
 
 
 ClientMessage = Annotated[
-    ClientFeedback | ClientUndo | ClientHalt | ClientFrameAck | ClientPing, Field(discriminator="type")
+    ClientFeedback | ClientRelabel | ClientUndo | ClientHalt | ClientFrameAck | ClientPing,
+    Field(discriminator="type"),
 ]

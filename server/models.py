@@ -102,7 +102,9 @@ class ExperimentRow(Base):
     good: Mapped[int] = mapped_column(default=0)
     neutral: Mapped[int] = mapped_column(default=0)
     bad: Mapped[int] = mapped_column(default=0)
+    cant_tell: Mapped[int] = mapped_column(default=0, server_default=text("0"))
     late: Mapped[int] = mapped_column(default=0)
+    relabelled: Mapped[int] = mapped_column(default=0, server_default=text("0"))
     proposals: Mapped[int] = mapped_column(default=0)
     executions: Mapped[int] = mapped_column(default=0)
     low_level_steps: Mapped[int] = mapped_column(default=0)
@@ -161,7 +163,7 @@ class ProposalRow(Base):
         UniqueConstraint("experiment_id", "number"),
         _one_of("purpose", "training", "evaluation"),
         _one_of("verdict", "good", "neutral", "bad"),
-        _one_of("close_reason", "judged", "timed_out", "withdrawn", "interrupted"),
+        _one_of("close_reason", "judged", "cant_tell", "timed_out", "withdrawn", "interrupted"),
         CheckConstraint("(close_reason IS NULL) = (closed_at IS NULL)", name="closed"),
         CheckConstraint(
             "(verdict IS NULL AND (close_reason IS NULL OR close_reason <> 'judged'))"
@@ -217,13 +219,13 @@ class TrainerRow(Base):
 
 
 class FeedbackRow(Base):
-    """A click. Rows are never deleted; an undone one keeps its place with `undone_at`."""
+    """A click; no value: can't tell. Rows are never deleted nor overwritten; an undone one keeps its place."""
 
     __tablename__ = "feedback"
     __table_args__ = (
         UniqueConstraint("click_id"),
         CheckConstraint("value IN (-1, 0, 1)", name="value"),
-        _one_of("status", "stored", "late"),
+        _one_of("status", "stored", "late", "practice"),
         Index(
             "uq_feedback_one_vote",
             "proposal_id",
@@ -240,10 +242,36 @@ class FeedbackRow(Base):
     experiment_id: Mapped[int] = mapped_column(ForeignKey("experiment.id"))
     proposal_id: Mapped[int] = mapped_column(ForeignKey("proposal.id"), index=True)
     trainer_id: Mapped[int] = mapped_column(ForeignKey("trainer.id"))
-    value: Mapped[int]
+    value: Mapped[int | None]
     status: Mapped[str]
     received_at: Mapped[datetime]
     undone_at: Mapped[datetime | None]
+
+    trainer: Mapped[TrainerRow] = relationship(lazy="joined", innerjoin=True)
+    relabels: Mapped[list[RelabelRow]] = relationship(lazy="selectin", order_by="RelabelRow.id")
+
+    @property
+    def label(self) -> int | None:
+        """What it says by now; None: can't tell."""
+        return self.relabels[-1].value if self.relabels else self.value
+
+
+class RelabelRow(Base):
+    """A correction of a click: the newest one of it is what it says now, to the counters and to the learner."""
+
+    __tablename__ = "relabel"
+    __table_args__ = (
+        UniqueConstraint("click_id"),
+        CheckConstraint("value IN (-1, 0, 1)", name="value"),
+        Index("ix_relabel_feedback_id_id", "feedback_id", "id"),
+    )
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    click_id: Mapped[str] = mapped_column(String(64))
+    feedback_id: Mapped[int] = mapped_column(ForeignKey("feedback.id"))
+    trainer_id: Mapped[int] = mapped_column(ForeignKey("trainer.id"))
+    value: Mapped[int | None]
+    at: Mapped[datetime]
 
     trainer: Mapped[TrainerRow] = relationship(lazy="joined", innerjoin=True)
 

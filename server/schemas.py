@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, StrictInt
 
+from server.schemas_labels import Answer, ClickId, Relabel, TrainerName, label_of
 from server.schemas_trust import Audit, AutoApproval, Suspended, Uncertainty, VerdictSource
 
 
@@ -60,21 +61,10 @@ class Aggregation(StrEnum):
     UNANIMOUS = "unanimous"
 
 
-Value = Annotated[StrictInt, Field(ge=-1, le=1, description="-1 bad, 0 neutral, +1 good")]
-ClickId = Annotated[
-    str,
-    Field(
-        min_length=8,
-        max_length=64,
-        pattern=r"^[A-Za-z0-9_.:-]+$",
-        description="made by the client, unique per click; the same id again is acknowledged again and stored once",
-    ),
-]
 RowId = Annotated[StrictInt, Field(ge=1, lt=2**63)]
 RobotIndex = Annotated[int, Field(description="which robot of the experiment, from 0")]
 Seed = Annotated[StrictInt, Field(ge=0, lt=2**31)]
 Name = Annotated[str, Field(min_length=1, max_length=120, pattern=r"^[^\x00-\x1f\x7f]+$")]
-TrainerName = Annotated[str, Field(min_length=1, max_length=64, pattern=r"^[^\x00-\x1f\x7f]+$")]
 
 
 class Counters(Wire):
@@ -84,7 +74,9 @@ class Counters(Wire):
     good: int = 0
     neutral: int = 0
     bad: int = 0
+    cant_tell: Annotated[int, Field(description="answers that nothing can be told from the view; no feedback")] = 0
     late: int = 0
+    relabelled: Annotated[int, Field(description="corrections of closed proposals' clicks")] = 0
     proposals: int = 0
     executions: int = 0
     low_level_steps: int = 0
@@ -215,9 +207,10 @@ class Verdict(StrEnum):
 
 
 class CloseReason(StrEnum):
-    """Why a proposal is no longer open."""
+    """Why a proposal is no longer open. `cant_tell`: nobody could tell from the views, so there is no verdict."""
 
     JUDGED = "judged"
+    CANT_TELL = "cant_tell"
     TIMED_OUT = "timed_out"
     WITHDRAWN = "withdrawn"
     INTERRUPTED = "interrupted"
@@ -269,8 +262,13 @@ class FeedbackCreate(Wire):
     """One click."""
 
     click_id: ClickId
-    value: Value
+    value: Answer
     trainer: TrainerName = "local"
+
+    @property
+    def label(self) -> int | None:
+        """What it says of the proposal; None: nothing."""
+        return label_of(self.value)
 
 
 class FeedbackStatus(StrEnum):
@@ -281,14 +279,16 @@ class FeedbackStatus(StrEnum):
 
 
 class Feedback(Wire):
-    """One trainer's label for one proposal."""
+    """One trainer's label for one proposal. A correction changes `label`, and neither `value` nor the verdict."""
 
     id: int
     click_id: str
     proposal_id: int
     experiment_id: int
     trainer: str
-    value: int
+    value: Annotated[Answer, Field(description="as it was clicked, and as it counted for the verdict")]
+    label: Annotated[Answer, Field(description="what it counts as now: in the counters, and for the learner")]
+    relabels: Annotated[list[Relabel], Field(description="every correction, oldest first")]
     status: FeedbackStatus
     received_at: datetime
     undone_at: datetime | None = None

@@ -15,9 +15,11 @@ from sqlalchemy.orm import Session
 from robot_adapters.base import SafetyViolation
 from server import (
     schemas,
+    schemas_labels,
     schemas_records,
     store_executions,
     store_experiments,
+    store_labels,
     store_proposals,
     store_records,
     store_trust,
@@ -34,6 +36,7 @@ from server.store_values import (
     NewView,
     Purpose,
     Receipt,
+    Relabelled,
     StoredLabel,
     StoredResponse,
     Submission,
@@ -169,6 +172,10 @@ class Store(Reads):
     ) -> Submission:
         """Store a click: counted, late, or known already. See `store_proposals.submit`."""
         return await self._write(lambda s: store_proposals.submit(s, proposal_id, click, kind))
+
+    async def relabel(self, feedback_id: int, body: schemas_labels.RelabelCreate, *, anybodys: bool) -> Relabelled:
+        """Correct a click on a closed proposal. See `store_labels.relabel`."""
+        return await self._write(lambda s: store_labels.relabel(s, feedback_id, body, anybodys=anybodys))
 
     async def undo_feedback(self, feedback_id: int) -> Undone:
         """Take the newest click back while nothing has moved."""

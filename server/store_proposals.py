@@ -19,11 +19,10 @@ from server.models import (
 )
 from server.store_errors import Conflict, NotFound
 from server.store_experiments import begin_episode, journal, load, must_be_running, now, open_episode, state
+from server.store_labels import count, labels_of, trainer
 from server.store_values import NewProposal, NewView, Submission, Undone
 from server.store_wire import feedback as feedback_wire
 from server.store_wire import proposal as proposal_wire
-
-COUNTER_OF = {1: "good", 0: "neutral", -1: "bad"}
 
 
 def load_proposal(session: Session, proposal_id: int) -> ProposalRow:
@@ -92,13 +91,13 @@ def open_proposal(session: Session, new: NewProposal) -> ProposalRow:
 
 
 def must_have_led_to_nothing(session: Session, proposal_id: int) -> None:
-    """What was drawn beside a proposal may follow it only if that was judged, not good, and its episode goes on.
+    """What was drawn beside a proposal may follow it only if clicks closed that, not as good, in the same episode.
 
     Raises:
         Conflict: it is open, closed without a verdict, or good; or its scene isn't there any more.
     """
     row = load_proposal(session, proposal_id)
-    if row.verdict is None or row.verdict == schemas.Verdict.GOOD.value:
+    if row.close_reason not in ("judged", "cant_tell") or row.verdict == schemas.Verdict.GOOD.value:
         raise Conflict(f"proposal {proposal_id} was not judged bad or neutral", remedy="propose anew")
     if row.episode.ended_at is not None:
         raise Conflict(f"the episode of proposal {proposal_id} has ended", remedy="observe, then propose anew")
@@ -107,7 +106,7 @@ def must_have_led_to_nothing(session: Session, proposal_id: int) -> None:
 def close_proposal(session: Session, proposal_id: int, reason: schemas.CloseReason) -> ProposalRow:
     """Close without a verdict; one that is closed already stays as it is."""
     row = load_proposal(session, proposal_id)
-    if reason is schemas.CloseReason.JUDGED:
+    if reason in (schemas.CloseReason.JUDGED, schemas.CloseReason.CANT_TELL):
         raise Conflict("only feedback judges a proposal", remedy="submit feedback")
     if row.closed_at is None:
         row.closed_at, row.close_reason = now(), reason.value
@@ -117,7 +116,7 @@ def close_proposal(session: Session, proposal_id: int, reason: schemas.CloseReas
 
 
 def submit(session: Session, proposal_id: int, click: schemas.FeedbackCreate, kind: str) -> Submission:
-    """Store a click; the one that completes a verdict closes the proposal with it.
+    """Store a click; the one that completes a verdict closes the proposal with it, as does the last abstention.
 
     Raises:
         Conflict: the click id was used for something else, the proposal is an evaluation's, or this trainer has
@@ -125,31 +124,41 @@ def submit(session: Session, proposal_id: int, click: schemas.FeedbackCreate, ki
     """
     known = session.scalars(select(FeedbackRow).where(FeedbackRow.click_id == click.click_id)).one_or_none()
     if known is not None:
-        if (known.proposal_id, known.value, known.trainer.name) != (proposal_id, click.value, click.trainer):
+        if (known.proposal_id, known.value, known.trainer.name) != (proposal_id, click.label, click.trainer):
             raise Conflict(
                 f"click {click.click_id} was stored with another content", remedy="make a new click id for every click"
             )
-        return Submission(feedback_wire(known), duplicate=True, closed=None)
+        return Submission(feedback_wire(known), duplicate=True)
     proposal = load_proposal(session, proposal_id)
     if proposal.purpose != "training":
         raise Conflict("this proposal belongs to an evaluation", remedy="judge the proposals of a running experiment")
     late = proposal.closed_at is not None
-    trainer = _trainer(session, click.trainer, kind)
+    by = trainer(session, click.trainer, kind)
     experiment = load(session, proposal.experiment_id)
     if not late:
-        _must_have_vote(session, experiment, proposal, trainer)
-    row = _store(session, proposal, trainer, click.click_id, click.value, late=late)
+        _must_have_vote(session, experiment, proposal, by)
+    row = _store(session, proposal, by, click.click_id, click.label, late=late)
     experiment.updated_at = now()
     if late:
         experiment.late += 1
-        return Submission(feedback_wire(row), duplicate=False, closed=None)
-    _count(experiment, click.value, 1)
-    rule = schemas.Aggregation(experiment.aggregation)
-    verdict = aggregation.verdict(rule, votes(session, proposal_id), proposal.electorate)
+        return Submission(feedback_wire(row), duplicate=False)
+    count(experiment, click.label, 1)
+    _conclude(session, experiment, proposal)
+    session.flush()
+    if proposal.closed_at is None:
+        return Submission(feedback_wire(row), duplicate=False)
+    labels = labels_of(session, proposal_id)
+    return Submission(feedback_wire(row), duplicate=False, closed=proposal_wire(proposal), labels=labels)
+
+
+def _conclude(session: Session, experiment: ExperimentRow, proposal: ProposalRow) -> None:
+    """Close it if the votes have come to an end: with their verdict, or because nobody could tell."""
+    cast = votes(session, proposal.id)
+    verdict = aggregation.verdict(schemas.Aggregation(experiment.aggregation), cast, proposal.electorate)
     if verdict is not None:
         judge(proposal, verdict, schemas_trust.VerdictSource.TRAINERS)
-    session.flush()
-    return Submission(feedback_wire(row), duplicate=False, closed=proposal_wire(proposal) if verdict else None)
+    elif aggregation.nobody_could_tell(cast, proposal.electorate):
+        proposal.close_reason, proposal.closed_at = schemas.CloseReason.CANT_TELL.value, now()
 
 
 def approve_evaluation(session: Session, proposal_id: int) -> ProposalRow:
@@ -157,15 +166,14 @@ def approve_evaluation(session: Session, proposal_id: int) -> ProposalRow:
     proposal = load_proposal(session, proposal_id)
     if proposal.purpose != "evaluation" or proposal.closed_at is not None:
         raise Conflict("only an open proposal of an evaluation can be approved by it", remedy="submit feedback instead")
-    trainer = _trainer(session, "evaluation", "evaluation")
-    _store(session, proposal, trainer, f"evaluation-{proposal_id}", 1, late=False)
+    _store(session, proposal, trainer(session, "evaluation", "evaluation"), f"evaluation-{proposal_id}", 1, late=False)
     judge(proposal, schemas.Verdict.GOOD, schemas_trust.VerdictSource.EVALUATION)
     session.flush()
     return proposal
 
 
-def votes(session: Session, proposal_id: int) -> dict[str, int]:
-    """Counted votes, trainer -> value, in the order they came."""
+def votes(session: Session, proposal_id: int) -> dict[str, int | None]:
+    """Counted votes, trainer -> value as it was clicked, in the order they came; None: can't tell."""
     query = (
         select(FeedbackRow)
         .where(FeedbackRow.proposal_id == proposal_id, FeedbackRow.status == "stored", FeedbackRow.undone_at.is_(None))
@@ -246,7 +254,7 @@ def undo(session: Session, feedback_id: int) -> Undone:
     judged.closed_at = judged.close_reason = judged.verdict = judged.gate_allowed = judged.gate_reason = None
     judged.verdict_source = None
     experiment = load(session, row.experiment_id)
-    _count(experiment, row.value, -1)
+    count(experiment, row.value, -1)
     experiment.updated_at = now()
     session.flush()
     journal(session, row.experiment_id, "undone", feedback=row.id, proposal=judged.id, value=row.value)
@@ -294,16 +302,6 @@ def _view(view: NewView) -> dict[str, object]:
     }
 
 
-def _trainer(session: Session, name: str, kind: str) -> TrainerRow:
-    query = select(TrainerRow).where(TrainerRow.name == name, TrainerRow.kind == kind)
-    row = session.scalars(query).one_or_none()
-    if row is None:
-        row = TrainerRow(name=name, kind=kind, created_at=now())
-        session.add(row)
-        session.flush()
-    return row
-
-
 def _must_have_vote(session: Session, experiment: ExperimentRow, proposal: ProposalRow, trainer: TrainerRow) -> None:
     if trainer.name in votes(session, proposal.id):
         raise Conflict(
@@ -317,7 +315,7 @@ def _must_have_vote(session: Session, experiment: ExperimentRow, proposal: Propo
 
 
 def _store(
-    session: Session, proposal: ProposalRow, trainer: TrainerRow, click_id: str, value: int, *, late: bool
+    session: Session, proposal: ProposalRow, trainer: TrainerRow, click_id: str, value: int | None, *, late: bool
 ) -> FeedbackRow:
     row = FeedbackRow(
         click_id=click_id,
@@ -327,6 +325,7 @@ def _store(
         value=value,
         status="late" if late else "stored",
         received_at=now(),
+        relabels=[],
     )
     session.add(row)
     session.flush()
@@ -337,8 +336,3 @@ def judge(proposal: ProposalRow, verdict: schemas.Verdict, source: schemas_trust
     """Close it with a verdict."""
     proposal.verdict, proposal.close_reason, proposal.closed_at = verdict.value, "judged", now()
     proposal.verdict_source = source.value
-
-
-def _count(experiment: ExperimentRow, value: int, by: int) -> None:
-    experiment.feedback += by
-    setattr(experiment, COUNTER_OF[value], getattr(experiment, COUNTER_OF[value]) + by)

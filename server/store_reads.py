@@ -13,6 +13,7 @@ from server import (
     schemas,
     schemas_records,
     store_experiments,
+    store_labels,
     store_pages,
     store_proposals,
     store_records,
@@ -99,7 +100,7 @@ class Reads:
 
     async def labels(self, experiment_id: int, after_id: int = 0) -> list[StoredLabel]:
         """What the learner trains from, ascending by feedback id."""
-        return await self._database.read(lambda s: store_records.labels(s, experiment_id, after_id))
+        return await self._database.read(lambda s: store_labels.labels(s, experiment_id, after_id))
 
     async def calibration(self, experiment_id: int, newest: int) -> Calibration:
         """The critic's reliability curve over its newest judged proposals."""

@@ -1,4 +1,4 @@
-"""Metrics, evaluations, checkpoints, labels and idempotency: what is written beside the loop of proposals."""
+"""Metrics, evaluations, checkpoints and idempotency: what is written beside the loop of proposals."""
 
 from __future__ import annotations
 
@@ -8,21 +8,18 @@ from collections.abc import Mapping
 from datetime import timedelta
 from typing import Any
 
-from sqlalchemy import delete, select
+from sqlalchemy import delete
 from sqlalchemy.orm import Session
 
 from server.models import (
     CheckpointRow,
     EvaluationRow,
-    FeedbackRow,
     IdempotencyRow,
     MetricRow,
-    ObservationRow,
-    ProposalRow,
 )
 from server.store_errors import Conflict, NotFound
 from server.store_experiments import journal, load, now
-from server.store_values import StoredLabel, StoredResponse
+from server.store_values import StoredResponse
 
 REMEMBERED = timedelta(hours=24)
 """How long a retried write gets its first answer again."""
@@ -96,28 +93,6 @@ def add_checkpoint(
     session.add(row)
     session.flush()
     return row
-
-
-def labels(session: Session, experiment_id: int, after_id: int) -> list[StoredLabel]:
-    """What the learner trains from: counted feedback of training proposals that got a verdict, by id."""
-    query = (
-        select(FeedbackRow.id, ObservationRow.state, ProposalRow.skill, ProposalRow.parameters, FeedbackRow.value)
-        .join(ProposalRow, ProposalRow.id == FeedbackRow.proposal_id)
-        .join(ObservationRow, ObservationRow.id == ProposalRow.observation_id)
-        .where(
-            FeedbackRow.experiment_id == experiment_id,
-            FeedbackRow.id > after_id,
-            FeedbackRow.status == "stored",
-            FeedbackRow.undone_at.is_(None),
-            ProposalRow.purpose == "training",
-            ProposalRow.verdict.is_not(None),  # a time-out trains nothing, whoever voted before it
-        )
-        .order_by(FeedbackRow.id)
-    )
-    return [
-        StoredLabel(feedback_id, tuple(state), skill, tuple(parameters), value)
-        for feedback_id, state, skill, parameters, value in session.execute(query)
-    ]
 
 
 def idempotent(session: Session, key: str, route: str, body_digest: str) -> StoredResponse | None:

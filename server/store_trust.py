@@ -14,6 +14,7 @@ from server.models import ExperimentRow, FeedbackRow, ProposalRow
 from server.schemas import Lifecycle, Mode, Proposal, Verdict
 from server.schemas_trust import AutoApproval, AutoApprovalRecord, Calibration, CalibrationBin, VerdictSource
 from server.store_experiments import journal, load, now, state
+from server.store_labels import value_now
 from server.store_proposals import judge, load_proposal
 from server.store_wire import proposal as proposal_wire
 
@@ -44,7 +45,7 @@ def calibration(session: Session, experiment_id: int, newest: int) -> Calibratio
         earlier.number < ProposalRow.number,
         earlier.verdict.is_not(None),
     )
-    label = select(func.avg(FeedbackRow.value)).where(
+    label = select(func.avg(value_now())).where(
         FeedbackRow.proposal_id == ProposalRow.id, FeedbackRow.status == "stored", FeedbackRow.undone_at.is_(None)
     )
     query = (
@@ -57,7 +58,7 @@ def calibration(session: Session, experiment_id: int, newest: int) -> Calibratio
         .order_by(ProposalRow.number.desc())
         .limit(newest)
     )
-    told = reliability([(predicted, float(mean)) for predicted, mean in session.execute(query)])
+    told = reliability([(predicted, float(mean)) for predicted, mean in session.execute(query) if mean is not None])
     return Calibration(
         experiment_id=experiment_id,
         labels=told.count,

@@ -50,12 +50,35 @@ class NewProposal:
 
 
 @dataclass(frozen=True)
+class StoredLabel:
+    """A counted feedback as the learner needs it; one per trainer of a proposal that got a verdict."""
+
+    feedback_id: int
+    state: tuple[float, ...]
+    skill: str
+    parameters: tuple[float, ...]
+    value: int
+
+
+@dataclass(frozen=True)
 class Submission:
-    """What became of a click. `closed` is the proposal if this very click closed it."""
+    """What became of a click. `closed` is the proposal if this very click closed it; `labels` train by that."""
 
     feedback: Feedback
     duplicate: bool
-    closed: Proposal | None
+    closed: Proposal | None = None
+    labels: Sequence[StoredLabel] = ()
+
+
+@dataclass(frozen=True)
+class Relabelled:
+    """A corrected click: what it counted as before and counts as now; `label` is what the learner has of it now."""
+
+    feedback: Feedback
+    duplicate: bool
+    before: int | None
+    after: int | None
+    label: StoredLabel | None = None
 
 
 @dataclass(frozen=True)
@@ -65,17 +88,6 @@ class Undone:
     feedback: Feedback
     reopened: Proposal
     withdrawn: Proposal | None
-
-
-@dataclass(frozen=True)
-class StoredLabel:
-    """A counted feedback as the learner needs it; one per trainer of a proposal that got a verdict."""
-
-    feedback_id: int
-    state: tuple[float, ...]
-    skill: str
-    parameters: tuple[float, ...]
-    value: int
 
 
 @dataclass(frozen=True)

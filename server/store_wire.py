@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from server import models, schemas, schemas_records
 from server.schemas_catalogue import Trainer
+from server.schemas_labels import Relabel, answer_of
 from server.schemas_trust import AutoApproval, VerdictSource
 
 
@@ -76,14 +77,19 @@ def proposal(row: models.ProposalRow) -> schemas.Proposal:
 
 
 def feedback(row: models.FeedbackRow) -> schemas.Feedback:
-    """With the trainer's name."""
+    """With the trainer's name, and every correction."""
     return schemas.Feedback(
         id=row.id,
         click_id=row.click_id,
         proposal_id=row.proposal_id,
         experiment_id=row.experiment_id,
         trainer=row.trainer.name,
-        value=row.value,
+        value=answer_of(row.value),
+        label=answer_of(row.label),
+        relabels=[
+            Relabel(id=r.id, click_id=r.click_id, trainer=r.trainer.name, value=answer_of(r.value), at=r.at)
+            for r in row.relabels
+        ],
         status=schemas.FeedbackStatus(row.status),
         received_at=row.received_at,
         undone_at=row.undone_at,

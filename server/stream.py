@@ -27,6 +27,7 @@ from server.messages import (
     ClientHalt,
     ClientMessage,
     ClientPing,
+    ClientRelabel,
     ClientUndo,
     FrameHeader,
     Pong,
@@ -34,6 +35,7 @@ from server.messages import (
     StreamEvent,
 )
 from server.schemas import Feedback, FeedbackCreate
+from server.schemas_labels import RelabelCreate
 from server.store import Store
 from server.store_errors import NotFound
 
@@ -153,7 +155,7 @@ class Connection:
         self._hub = hub
         self._store = store
         self._experiment_id = experiment_id
-        self._inbox: asyncio.Queue[ClientFeedback | ClientUndo] = asyncio.Queue(INBOX_LIMIT)
+        self._inbox: asyncio.Queue[ClientFeedback | ClientRelabel | ClientUndo] = asyncio.Queue(INBOX_LIMIT)
         self._going: set[asyncio.Task[None]] = set()
         self._rubbish = 0
 
@@ -231,10 +233,13 @@ class Connection:
         task.add_done_callback(self._going.discard)
         return task
 
-    async def _judge(self, message: ClientFeedback | ClientUndo) -> None:
+    async def _judge(self, message: ClientFeedback | ClientRelabel | ClientUndo) -> None:
         try:
             if isinstance(message, ClientUndo):
                 feedback = await self._undo(message)
+            elif isinstance(message, ClientRelabel):
+                correction = RelabelCreate(click_id=message.click_id, value=message.value, trainer=message.trainer)
+                feedback, _ = await self._hub.relabel(message.feedback_id, correction, self._experiment_id)
             else:
                 click = FeedbackCreate(click_id=message.click_id, value=message.value, trainer=message.trainer)
                 feedback, _ = await self._hub.feedback(message.proposal_id, click, experiment_id=self._experiment_id)
@@ -259,7 +264,9 @@ class Connection:
 
     def _refuse_rubbish(self, detail: str, request_id: str | None = None) -> None:
         self._rubbish += 1
-        details = problem(422, detail, remedy="send one of: feedback, undo, halt, frame_ack, ping; see docs/api.md")
+        details = problem(
+            422, detail, remedy="send one of: feedback, relabel, undo, halt, frame_ack, ping; see docs/api.md"
+        )
         self._answer(Refused(request_id=request_id, problem=details))
 
     def _answer(self, event: Acknowledged | Refused | Pong) -> None:
@@ -271,8 +278,8 @@ class Connection:
             await asyncio.wait_for(self._socket.close(code, reason), FAREWELL_SECONDS)
 
 
-def _id_of(message: ClientFeedback | ClientUndo) -> str:
-    return message.click_id if isinstance(message, ClientFeedback) else message.request_id
+def _id_of(message: ClientFeedback | ClientRelabel | ClientUndo) -> str:
+    return message.request_id if isinstance(message, ClientUndo) else message.click_id
 
 
 def _request_id(text: str) -> str | None:

@@ -9,10 +9,13 @@ from fastapi import APIRouter, Body, Response
 from server.errors import late_feedback
 from server.routes.dependencies import Cursor, Id, Limit, Running, errors
 from server.schemas import Feedback, FeedbackCreate, FeedbackPage, FeedbackStatus
+from server.schemas_labels import RelabelCreate
 
 router = APIRouter(tags=["feedback"])
 
 CLICK = {"good": {"value": {"click_id": "9f1c2a77-3b1e", "value": 1}}}
+
+CORRECTION = {"bad after all": {"value": {"click_id": "77ab3f02-9c1d", "value": -1}}}
 
 
 @router.post(
@@ -56,6 +59,27 @@ async def list_feedback(service: Running, experiment_id: Id, cursor: Cursor = No
 async def get_feedback(service: Running, feedback_id: Id) -> Feedback:
     """One click as it is stored."""
     return await service.store.feedback(feedback_id)
+
+
+@router.post(
+    "/feedback/{feedback_id}/relabels",
+    status_code=201,
+    responses={
+        200: {"model": Feedback, "description": "This very correction is stored already"},
+        **errors(400, 404, 409, 413, 422),
+    },
+)
+async def relabel_feedback(
+    service: Running,
+    response: Response,
+    feedback_id: Id,
+    body: Annotated[RelabelCreate, Body(openapi_examples=CORRECTION)],
+) -> Feedback:
+    """Correct one's own click on a closed proposal, however old. The learner follows; no verdict or motion changes."""
+    feedback, duplicate = await service.hub.relabel(feedback_id, body)
+    if duplicate:
+        response.status_code = 200
+    return feedback
 
 
 @router.delete("/feedback/{feedback_id}", responses=errors(404, 409, 422))

@@ -118,6 +118,12 @@ class Learner:
         self.algorithm.forget(feedback_id)
         return self._status()
 
+    def relabel(self, *, label: dict[str, Any]) -> dict[str, Any]:
+        """Hold a corrected label in the place of the one of the same id."""
+        (corrected,) = self._labels([label])
+        self.algorithm.relabel(corrected)
+        return self._status()
+
     def flush(self) -> dict[str, Any]:
         """Answered once no gradient step is owed (`serve` holds the reply back until then)."""
         return self._status()
@@ -161,7 +167,7 @@ class Learner:
 def serve(pipes: Pipes) -> None:
     """Answer requests until the server is gone; take gradient steps in between."""
     learner = Learner()
-    names = ("configure", "propose", "add", "restore", "forget", "flush", "save", "load")
+    names = ("configure", "propose", "add", "restore", "forget", "relabel", "flush", "save", "load")
     handlers = {name: getattr(learner, name) for name in names}
     commands = pipes.commands
     flushes: list[Mapping[str, Any]] = []

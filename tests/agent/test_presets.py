@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -103,3 +104,25 @@ def test_a_checkpoint_of_another_grounding_is_refused(tmp_path: Path) -> None:
     settings = SeedSettings(**{**SEED.presets["recommended"], **FEW, "grounded_actor": False})
     with pytest.raises(CheckpointError, match="grounded_actor: file has"):
         SEED(of_task("stacking"), settings, 0).load(tmp_path / "a.ckpt")
+
+
+@preset_and_task
+def test_a_preset_learns_from_corrections_as_if_they_had_been_said_at_once(preset: str, task: str) -> None:
+    stored = judged(task, 40)
+    known = {label.id: label for label in stored}
+    changed = {label_id: replace(known[label_id], value=-known[label_id].value) for label_id in (3, 8, 21)}
+    right = [changed.get(label.id, label) for label in stored if label.id != 30]
+    learner, twin = of_preset(preset, task), of_preset(preset, task)
+    learner.add(stored[:20])
+    learner.forget(30)  # not there yet
+    learner.add(stored[20:])
+    learner.forget(30)
+    learner.forget(8)
+    for label in changed.values():
+        learner.relabel(label)
+    twin.add(right)
+    assert len(learner._replay) == len(twin._replay) == 39
+    assert learner._replay.counts() == twin._replay.counts()
+    for _ in range(10):
+        assert learner.update() == twin.update()
+    assert drawn(learner, stored[:3]) == drawn(twin, stored[:3])

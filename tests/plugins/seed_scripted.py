@@ -78,6 +78,9 @@ class Scripted:
     def forget(self, label_id: int) -> None:
         """There is nothing to forget."""
 
+    def relabel(self, label: Label) -> None:
+        """Nor to correct."""
+
     def update(self) -> Mapping[str, float] | None:
         """Nothing to learn."""
         return None

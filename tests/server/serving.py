@@ -73,7 +73,7 @@ class Serving:
         )
         return await self.service.store.open_proposal(new)
 
-    def click(self, value: int = -1, **fields: Any) -> dict[str, Any]:
+    def click(self, value: int | str = -1, **fields: Any) -> dict[str, Any]:
         """The body of a click with an id of its own."""
         return {"click_id": f"click-{next(self._counts):08d}", "value": value} | fields
 

@@ -101,7 +101,7 @@ class Stage:
         """The position behind the newest event."""
         return len(self.seen.events)
 
-    def click(self, value: int, click_id: str | None = None) -> FeedbackCreate:
+    def click(self, value: int | str, click_id: str | None = None) -> FeedbackCreate:
         return FeedbackCreate(click_id=click_id or f"test-click-{next(self._clicks)}", value=value)
 
     async def judge(self, proposal: Proposal, value: int) -> Feedback:

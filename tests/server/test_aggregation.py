@@ -6,7 +6,7 @@ import itertools
 
 import pytest
 
-from server.aggregation import verdict
+from server.aggregation import nobody_could_tell, verdict
 from server.schemas import Aggregation, Verdict
 
 FIRST, MAJORITY, UNANIMOUS = Aggregation.FIRST, Aggregation.MAJORITY, Aggregation.UNANIMOUS
@@ -64,3 +64,48 @@ def test_a_verdict_comes_with_all_votes_and_never_changes_after(rule: Aggregatio
         decided = [v for v in found if v is not None]
         assert set(decided) == {found[-1]}
         assert (found[-1] is G) <= (sum(v == 1 for v in values) * 2 > size)  # nothing moves without more than half
+
+
+@pytest.mark.parametrize(
+    ("rule", "electorate", "votes", "expected"),
+    [
+        (FIRST, 1, (None,), None),
+        (FIRST, 3, (None, 1), G),
+        (MAJORITY, 3, (1, None), None),
+        (MAJORITY, 3, (None, 1, 1), G),
+        (MAJORITY, 3, (None, None, -1), B),
+        (MAJORITY, 3, (None, 1, -1), N),
+        (UNANIMOUS, 3, (1, None), None),
+        (UNANIMOUS, 3, (1, None, 1), G),
+        (UNANIMOUS, 3, (None, -1), B),
+        (MAJORITY, 2, (None, None), None),
+        (UNANIMOUS, 2, (None, None), None),
+    ],
+)
+def test_who_cant_tell_is_heard_and_not_counted(
+    rule: Aggregation, electorate: int, votes: tuple[int | None, ...], expected: Verdict | None
+) -> None:
+    assert verdict(rule, dict(zip(NAMES, votes, strict=False)), NAMES[:electorate]) == expected
+
+
+@pytest.mark.parametrize("rule", [FIRST, MAJORITY, UNANIMOUS])
+@pytest.mark.parametrize("size", [1, 2, 3, 4])
+def test_all_votes_end_it_and_no_abstention_turns_a_verdict(rule: Aggregation, size: int) -> None:
+    for values in itertools.product((-1, 0, 1, None), repeat=size):
+        cast = [dict(zip(NAMES, values[:n], strict=False)) for n in range(size + 1)]
+        found = [verdict(rule, votes, NAMES[:size]) for votes in cast]
+        stuck = [nobody_could_tell(votes, NAMES[:size]) for votes in cast]
+        assert (found[-1] is None) == stuck[-1] == (set(values) == {None})
+        assert not any(stuck[:-1])
+        assert len({v for v in found if v is not None}) <= 1
+        if rule is not FIRST:
+            told = [value for value in values if value is not None]
+            assert (found[-1] is G) <= (told.count(1) * 2 > len(told))
+
+
+def test_one_who_cant_tell_waits_for_whoever_else_is_there() -> None:
+    assert nobody_could_tell({"ann": None}, ("ann",))
+    assert nobody_could_tell({"ann": None}, ())
+    assert not nobody_could_tell({"ann": None}, ("ann", "bob"))
+    assert not nobody_could_tell({}, ())
+    assert not nobody_could_tell({"ann": None, "bob": 0}, ("ann", "bob"))

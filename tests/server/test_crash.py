@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 from server.hub import Act
 from server.messages import (
@@ -156,7 +157,7 @@ async def test_a_robot_worker_that_ignores_the_emergency_stop_is_killed(tmp_path
 async def test_a_random_walk_of_clicks_verbs_and_deaths_breaks_nothing(tmp_path: Path) -> None:
     chance = random.Random(3)
     verbs: list[Act] = ["pause", "resume", "resume", "resume", "reset", "halt", "rearm", "rearm"]
-    acknowledged: dict[str, tuple[int, int]] = {}
+    acknowledged: dict[str, tuple[int, Any]] = {}
     async with stage(tmp_path, checkpoint_every=5) as s:
         experiment = await s.experiment(adapter_settings={"step_seconds": 0.002})
         await s.hub.act(experiment.id, "start")
@@ -201,7 +202,7 @@ async def test_the_server_killed_at_random_moments(tmp_path: Path) -> None:
     async with stage(tmp_path) as s:
         experiment = await s.experiment(adapter_settings={"step_seconds": 0.005})
     chance = random.Random(11)
-    acknowledged: dict[str, tuple[int, int]] = {}
+    acknowledged: dict[str, tuple[int, Any]] = {}
     started: list[int] = []
     for life in range(4):
         said = await asyncio.to_thread(live_and_die, tmp_path, experiment.id, life, chance)
@@ -236,13 +237,13 @@ def live_and_die(data_dir: Path, experiment_id: int, life: int, chance: random.R
 
 
 async def check(
-    data_dir: Path, experiment_id: int, acknowledged: dict[str, tuple[int, int]], started: list[int]
+    data_dir: Path, experiment_id: int, acknowledged: dict[str, tuple[int, Any]], started: list[int]
 ) -> None:
     """The invariants of DESIGN.md section 5, on what the dead service left behind."""
     assert len(started) == len(set(started)), "no motion is repeated"
     store = await Store.open(None, data_dir, backup=False)
     await store.recover()
-    clicks: dict[str, tuple[int, int]] = {}
+    clicks: dict[str, tuple[int, Any]] = {}
     counted = 0
     proposals = (await store.proposals(experiment_id, limit=500)).items
     for proposal in proposals:

@@ -103,7 +103,7 @@ async def taught(s: Stage, feedback: int, **fields: Any) -> list[tuple[int, int]
 
 
 async def labels(s: Stage, experiment_id: int) -> list[tuple[int, int]]:
-    found = []
+    found: list[tuple[int, Any]] = []
     for proposal in (await s.store.proposals(experiment_id, limit=200)).items:
         found += [(proposal.number, c.value) for c in (await s.store.feedback_of_proposal(proposal.id)).items]
     return sorted(found)

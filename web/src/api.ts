@@ -517,6 +517,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/feedback/{feedback_id}/relabels": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Relabel Feedback
+         * @description Correct one's own click on a closed proposal, however old. The learner follows; no verdict or motion changes.
+         */
+        post: operations["relabel_feedback"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/experiments/{experiment_id}/executions": {
         parameters: {
             query?: never;
@@ -959,6 +979,26 @@ export interface webhooks {
         patch?: never;
         trace?: never;
     };
+    "stream-event/feedback_relabelled": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Event feedback_relabelled
+         * @description A click on a closed proposal was corrected: the learner follows, its verdict and what moved by it stay.
+         */
+        post: operations["event_feedback_relabelled"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "stream-event/execution_started": {
         parameters: {
             query?: never;
@@ -1356,9 +1396,10 @@ export interface components {
             proposal_id: number;
             /**
              * Value
-             * @description -1 bad, 0 neutral, +1 good
+             * @description -1 bad, 0 neutral, +1 good; cant_tell: nothing can be said from this view. That is an abstention: stored, never learned from, and neither for nor against
+             * @enum {unknown}
              */
-            value: number;
+            value: -1 | 0 | 1 | "cant_tell";
             /**
              * Trainer
              * @default local
@@ -1404,6 +1445,35 @@ export interface components {
             type: "ping";
         };
         /**
+         * ClientRelabel
+         * @description Correct a click on a closed proposal. It never causes a motion and never changes a verdict.
+         */
+        ClientRelabel: {
+            /**
+             * Click Id
+             * @description made by the client, unique per click; the same id again is acknowledged again and stored once
+             */
+            click_id: string;
+            /**
+             * Value
+             * @description -1 bad, 0 neutral, +1 good; cant_tell: nothing can be said from this view. That is an abstention: stored, never learned from, and neither for nor against
+             * @enum {unknown}
+             */
+            value: -1 | 0 | 1 | "cant_tell";
+            /**
+             * Trainer
+             * @default local
+             */
+            trainer: string;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "relabel";
+            /** Feedback Id */
+            feedback_id: number;
+        };
+        /**
          * ClientUndo
          * @description Take back a feedback, while nothing has moved.
          */
@@ -1423,10 +1493,10 @@ export interface components {
         };
         /**
          * CloseReason
-         * @description Why a proposal is no longer open.
+         * @description Why a proposal is no longer open. `cant_tell`: nobody could tell from the views, so there is no verdict.
          * @enum {string}
          */
-        CloseReason: "judged" | "timed_out" | "withdrawn" | "interrupted";
+        CloseReason: "judged" | "cant_tell" | "timed_out" | "withdrawn" | "interrupted";
         /**
          * Counters
          * @description What happened so far in an experiment.
@@ -1453,10 +1523,22 @@ export interface components {
              */
             bad: number;
             /**
+             * Cant Tell
+             * @description answers that nothing can be told from the view; no feedback
+             * @default 0
+             */
+            cant_tell: number;
+            /**
              * Late
              * @default 0
              */
             late: number;
+            /**
+             * Relabelled
+             * @description corrections of closed proposals' clicks
+             * @default 0
+             */
+            relabelled: number;
             /**
              * Proposals
              * @default 0
@@ -1862,7 +1944,7 @@ export interface components {
         };
         /**
          * Feedback
-         * @description One trainer's label for one proposal.
+         * @description One trainer's label for one proposal. A correction changes `label`, and neither `value` nor the verdict.
          */
         Feedback: {
             /** Id */
@@ -1875,8 +1957,23 @@ export interface components {
             experiment_id: number;
             /** Trainer */
             trainer: string;
-            /** Value */
-            value: number;
+            /**
+             * Value
+             * @description as it was clicked, and as it counted for the verdict
+             * @enum {unknown}
+             */
+            value: -1 | 0 | 1 | "cant_tell";
+            /**
+             * Label
+             * @description what it counts as now: in the counters, and for the learner
+             * @enum {unknown}
+             */
+            label: -1 | 0 | 1 | "cant_tell";
+            /**
+             * Relabels
+             * @description every correction, oldest first
+             */
+            relabels: components["schemas"]["Relabel"][];
             status: components["schemas"]["FeedbackStatus"];
             /**
              * Received At
@@ -1898,9 +1995,10 @@ export interface components {
             click_id: string;
             /**
              * Value
-             * @description -1 bad, 0 neutral, +1 good
+             * @description -1 bad, 0 neutral, +1 good; cant_tell: nothing can be said from this view. That is an abstention: stored, never learned from, and neither for nor against
+             * @enum {unknown}
              */
-            value: number;
+            value: -1 | 0 | 1 | "cant_tell";
             /**
              * Trainer
              * @default local
@@ -1916,6 +2014,18 @@ export interface components {
             next_cursor: string | null;
             /** Items */
             items: components["schemas"]["Feedback"][];
+        };
+        /**
+         * FeedbackRelabelled
+         * @description A click on a closed proposal was corrected: the learner follows, its verdict and what moved by it stay.
+         */
+        FeedbackRelabelled: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "feedback_relabelled";
+            feedback: components["schemas"]["Feedback"];
         };
         /**
          * FeedbackStatus
@@ -2308,6 +2418,54 @@ export interface components {
             /** Request Id */
             request_id: string | null;
             problem: components["schemas"]["Problem"];
+        };
+        /**
+         * Relabel
+         * @description One correction. The click itself stays as it was given.
+         */
+        Relabel: {
+            /** Id */
+            id: number;
+            /** Click Id */
+            click_id: string;
+            /**
+             * Trainer
+             * @description who corrected it
+             */
+            trainer: string;
+            /**
+             * Value
+             * @description -1 bad, 0 neutral, +1 good; cant_tell: nothing can be said from this view. That is an abstention: stored, never learned from, and neither for nor against
+             * @enum {unknown}
+             */
+            value: -1 | 0 | 1 | "cant_tell";
+            /**
+             * At
+             * Format: date-time
+             */
+            at: string;
+        };
+        /**
+         * RelabelCreate
+         * @description Correct a click on a proposal that is closed.
+         */
+        RelabelCreate: {
+            /**
+             * Click Id
+             * @description made by the client, unique per click; the same id again is acknowledged again and stored once
+             */
+            click_id: string;
+            /**
+             * Value
+             * @description -1 bad, 0 neutral, +1 good; cant_tell: nothing can be said from this view. That is an abstention: stored, never learned from, and neither for nor against
+             * @enum {unknown}
+             */
+            value: -1 | 0 | 1 | "cant_tell";
+            /**
+             * Trainer
+             * @default local
+             */
+            trainer: string;
         };
         /**
          * Skill
@@ -4780,6 +4938,113 @@ export interface operations {
             };
         };
     };
+    relabel_feedback: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                feedback_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RelabelCreate"];
+            };
+        };
+        responses: {
+            /** @description This very correction is stored already */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Feedback"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Feedback"];
+                };
+            };
+            /** @description The body is no JSON, or nested too deeply */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The state of things doesn't allow it; `current` and `allowed` say what does */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     list_executions: {
         parameters: {
             query?: {
@@ -5580,7 +5845,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["Snapshot"] | components["schemas"]["ExperimentChanged"] | components["schemas"]["ProposalOpened"] | components["schemas"]["ProposalClosed"] | components["schemas"]["FeedbackStored"] | components["schemas"]["FeedbackUndone"] | components["schemas"]["ExecutionStarted"] | components["schemas"]["ExecutionEnded"] | components["schemas"]["MetricsAdded"] | components["schemas"]["WorkerChanged"] | components["schemas"]["EvaluationChanged"] | components["schemas"]["Acknowledged"] | components["schemas"]["Refused"] | components["schemas"]["Pong"];
+                "application/json": components["schemas"]["Snapshot"] | components["schemas"]["ExperimentChanged"] | components["schemas"]["ProposalOpened"] | components["schemas"]["ProposalClosed"] | components["schemas"]["FeedbackStored"] | components["schemas"]["FeedbackUndone"] | components["schemas"]["FeedbackRelabelled"] | components["schemas"]["ExecutionStarted"] | components["schemas"]["ExecutionEnded"] | components["schemas"]["MetricsAdded"] | components["schemas"]["WorkerChanged"] | components["schemas"]["EvaluationChanged"] | components["schemas"]["Acknowledged"] | components["schemas"]["Refused"] | components["schemas"]["Pong"];
             };
         };
         responses: {
@@ -5624,7 +5889,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["ClientFeedback"] | components["schemas"]["ClientUndo"] | components["schemas"]["ClientHalt"] | components["schemas"]["ClientFrameAck"] | components["schemas"]["ClientPing"];
+                "application/json": components["schemas"]["ClientFeedback"] | components["schemas"]["ClientRelabel"] | components["schemas"]["ClientUndo"] | components["schemas"]["ClientHalt"] | components["schemas"]["ClientFrameAck"] | components["schemas"]["ClientPing"];
             };
         };
         responses: {
@@ -5757,6 +6022,28 @@ export interface operations {
         requestBody: {
             content: {
                 "application/json": components["schemas"]["FeedbackUndone"];
+            };
+        };
+        responses: {
+            /** @description Sent over the WebSocket; there is no answer to it */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    event_feedback_relabelled: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["FeedbackRelabelled"];
             };
         };
         responses: {

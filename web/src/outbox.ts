@@ -64,6 +64,6 @@ function isClick(value: unknown): value is Click {
   return (
     typeof click?.click_id === "string" &&
     Number.isInteger(click.proposal_id) &&
-    [-1, 0, 1].includes(click.value)
+    [-1, 0, 1, "cant_tell"].includes(click.value)
   );
 }

@@ -158,6 +158,8 @@ function onEvent(state: TrainerState, event: StreamEvent): TrainerState {
         judged: except(state.judged, event.feedback.proposal_id),
         undoable: state.undoable?.id === event.feedback.id ? null : state.undoable,
       };
+    case "feedback_relabelled":
+      return state; // counters come by themselves; the verdict stays
     case "execution_started":
       return withRobot(endUndo(state, event.execution.robot), event.execution.robot, {
         execution: event.execution,
@@ -293,7 +295,7 @@ function onAcknowledged(state: TrainerState, requestId: string, feedback: Feedba
   const pending = without(state.pending, requestId);
   // The answer to an undo carries the undone click: that proposal is to be judged again.
   const click = feedback?.click_id === requestId ? feedback : null;
-  const judged = click ? { ...state.judged, [click.proposal_id]: click.value as Value } : state.judged;
+  const judged = click ? { ...state.judged, [click.proposal_id]: click.value } : state.judged;
   const next = { ...state, pending, judged };
   if (feedback?.status !== "late") return next;
   return withNotice(next, "warning", `Your “${wordFor(feedback.value)}” came too late: not counted.`);
@@ -344,7 +346,8 @@ function without(clicks: Click[], clickId: string): Click[] {
     : clicks;
 }
 
-export function wordFor(value: number): string {
+export function wordFor(value: Value): string {
+  if (value === "cant_tell") return "can't tell";
   return value > 0 ? "good" : value < 0 ? "bad" : "neutral";
 }
 

@@ -33,6 +33,7 @@ export type StreamEvent =
   | Schemas["ProposalClosed"]
   | Schemas["FeedbackStored"]
   | Schemas["FeedbackUndone"]
+  | Schemas["FeedbackRelabelled"]
   | Schemas["ExecutionStarted"]
   | Schemas["ExecutionEnded"]
   | Schemas["MetricsAdded"]
@@ -44,13 +45,14 @@ export type StreamEvent =
 
 export type ClientMessage =
   | Schemas["ClientFeedback"]
+  | Schemas["ClientRelabel"]
   | Schemas["ClientUndo"]
   | Schemas["ClientHalt"]
   | Schemas["ClientFrameAck"]
   | Schemas["ClientPing"];
 
-/** −1 bad, 0 neutral, +1 good. */
-export type Value = -1 | 0 | 1;
+/** −1 bad, 0 neutral, +1 good, or that nothing can be told from the view. */
+export type Value = Schemas["Feedback"]["value"];
 
 export type Verb = "start" | "pause" | "resume" | "finish" | "halt" | "rearm";
 

@@ -3,14 +3,15 @@ import { describe, expect, it, vi } from "vitest";
 import { Confirm } from "../src/components/Dialog";
 import { JudgeBar, type JudgeBarProps } from "../src/components/JudgeBar";
 import { StopButton } from "../src/components/StopButton";
+import type { Value } from "../src/wire";
 import { byTestId, press, show } from "./render";
 
 function bar(change: Partial<JudgeBarProps> = {}): {
-  judged: number[];
+  judged: Value[];
   props: JudgeBarProps;
   undone: () => number;
 } {
-  const judged: number[] = [];
+  const judged: Value[] = [];
   const onUndo = vi.fn();
   return {
     judged,
@@ -34,7 +35,9 @@ describe("judging by keys", () => {
     ["ArrowRight", 1],
     ["ArrowDown", 0],
     ["ArrowLeft", -1],
-  ])("%s is %i", async (key, value) => {
+    ["4", "cant_tell"],
+    ["ArrowUp", "cant_tell"],
+  ])("%s is %s", async (key, value) => {
     const { judged, props } = bar();
     await show(<JudgeBar {...props} />);
     await press(key);

@@ -1,14 +1,23 @@
-// Good, Neutral, Bad: as buttons and as keys. One press is one click for the proposal that is drawn, never for the next.
+// Good, Neutral, Bad, and that nothing can be told from the view: as buttons and as keys. One press is one click for the proposal that is drawn, never for the next.
 import { type KeyboardEvent as ReactKeyboardEvent, useEffect, useEffectEvent } from "react";
 import type { Value } from "../wire";
 import { dialogOpen } from "./Dialog";
-import { Cross, Dash, Tick } from "./icons";
+import { Cross, Dash, Eye, Tick } from "./icons";
 
 // In the order of the arrow keys, from left to right.
 const CHOICES = [
   { value: -1, name: "Bad", testId: "bad", arrow: "←", number: "3", key: "ArrowLeft", Icon: Cross },
   { value: 0, name: "Neutral", testId: "neutral", arrow: "↓", number: "2", key: "ArrowDown", Icon: Dash },
   { value: 1, name: "Good", testId: "good", arrow: "→", number: "1", key: "ArrowRight", Icon: Tick },
+  {
+    value: "cant_tell",
+    name: "Can’t tell",
+    testId: "cant-tell",
+    arrow: "↑",
+    number: "4",
+    key: "ArrowUp",
+    Icon: Eye,
+  },
 ] as const;
 
 export interface JudgeBarProps {

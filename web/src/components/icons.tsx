@@ -41,6 +41,17 @@ export function Dash() {
   );
 }
 
+/** Crossed out: nothing can be told from the view. */
+export function Eye() {
+  return (
+    <svg viewBox="0 0 24 24" aria-hidden="true" {...stroke}>
+      <path d="M2.5 12s3.5-6 9.5-6 9.5 6 9.5 6-3.5 6-9.5 6-9.5-6-9.5-6Z" />
+      <circle cx="12" cy="12" r="2.6" />
+      <path d="m4 20 16-16" />
+    </svg>
+  );
+}
+
 export function Tick() {
   return (
     <svg viewBox="0 0 24 24" aria-hidden="true" {...stroke} strokeWidth={2.6}>

@@ -1,0 +1,131 @@
+"""What the learner trains from, and corrections of it. Every function runs inside one transaction."""
+
+from __future__ import annotations
+
+from sqlalchemy import ColumnElement, case, exists, or_, select
+from sqlalchemy.orm import Session
+
+from server.models import ExperimentRow, FeedbackRow, ObservationRow, ProposalRow, RelabelRow, TrainerRow
+from server.schemas_labels import RelabelCreate, label_of
+from server.store_errors import Conflict, NotFound
+from server.store_experiments import journal, load, now
+from server.store_values import Relabelled, StoredLabel
+from server.store_wire import feedback as feedback_wire
+
+COUNTER_OF = {1: "good", 0: "neutral", -1: "bad", None: "cant_tell"}
+
+
+def value_now() -> ColumnElement[int | None]:
+    """In a query: what a feedback says by now; null: can't tell. In Python it is `FeedbackRow.label`."""
+    newest = (
+        select(RelabelRow.value)
+        .where(RelabelRow.feedback_id == FeedbackRow.id)
+        .order_by(RelabelRow.id.desc())
+        .limit(1)
+        .correlate(FeedbackRow)
+        .scalar_subquery()
+    )
+    corrected = exists().where(RelabelRow.feedback_id == FeedbackRow.id).correlate(FeedbackRow)
+    return case((corrected, newest), else_=FeedbackRow.value)
+
+
+def labels(session: Session, experiment_id: int, after_id: int = 0) -> list[StoredLabel]:
+    """What the learner trains from, by id."""
+    return _labels(session, FeedbackRow.experiment_id == experiment_id, FeedbackRow.id > after_id)
+
+
+def labels_of(session: Session, proposal_id: int) -> list[StoredLabel]:
+    """What the learner trains from this proposal."""
+    return _labels(session, FeedbackRow.proposal_id == proposal_id)
+
+
+def relabel(session: Session, feedback_id: int, body: RelabelCreate, *, anybodys: bool) -> Relabelled:
+    """Correct a click on a closed proposal: its row stays, counters and learner follow, the verdict doesn't.
+
+    anybodys: also one that somebody else gave.
+
+    Raises:
+        NotFound: no such feedback. Conflict: the click id was used for something else, it isn't this trainer's, it
+            doesn't count, or its proposal is still open.
+    """
+    row = session.get(FeedbackRow, feedback_id)
+    if row is None:
+        raise NotFound("feedback", feedback_id)
+    value = label_of(body.value)
+    known = session.scalars(select(RelabelRow).where(RelabelRow.click_id == body.click_id)).one_or_none()
+    if known is not None:
+        if (known.feedback_id, known.value, known.trainer.name) != (feedback_id, value, body.trainer):
+            raise Conflict(
+                f"click {body.click_id} was stored with another content", remedy="make a new click id for every click"
+            )
+        return Relabelled(feedback_wire(row), duplicate=True, before=row.label, after=row.label)
+    proposal = session.get_one(ProposalRow, row.proposal_id)
+    _must_be_correctable(row, proposal, body.trainer, anybodys=anybodys)
+    before, experiment = row.label, load(session, row.experiment_id)
+    by = row.trainer if row.trainer.name == body.trainer else trainer(session, body.trainer, "person")
+    row.relabels.append(RelabelRow(click_id=body.click_id, trainer=by, value=value, at=now()))
+    count(experiment, before, -1)
+    count(experiment, value, 1)
+    experiment.relabelled += 1
+    experiment.updated_at = now()
+    session.flush()
+    journal(session, row.experiment_id, "relabelled", feedback=row.id, proposal=row.proposal_id, before=before)
+    learned = _labels(session, FeedbackRow.id == feedback_id)
+    return Relabelled(
+        feedback_wire(row), duplicate=False, before=before, after=value, label=learned[0] if learned else None
+    )
+
+
+def count(experiment: ExperimentRow, value: int | None, by: int) -> None:
+    """Count an answer; one that says nothing is no feedback."""
+    experiment.feedback += by if value is not None else 0
+    counter = COUNTER_OF[value]
+    setattr(experiment, counter, getattr(experiment, counter) + by)
+
+
+def trainer(session: Session, name: str, kind: str) -> TrainerRow:
+    """Who judges; made where there is none of this name."""
+    row = session.scalars(select(TrainerRow).where(TrainerRow.name == name, TrainerRow.kind == kind)).one_or_none()
+    if row is None:
+        row = TrainerRow(name=name, kind=kind, created_at=now())
+        session.add(row)
+        session.flush()
+    return row
+
+
+def _must_be_correctable(row: FeedbackRow, proposal: ProposalRow, by: str, *, anybodys: bool) -> None:
+    if row.trainer.name != by and not anybodys:
+        raise Conflict(f"this click is {row.trainer.name}'s, not {by}'s", remedy="correct your own clicks")
+    if proposal.purpose != "training":
+        raise Conflict("an evaluation's approval is no label", remedy="judge the proposals of a running experiment")
+    if row.status != "stored":
+        why = "it came late" if row.status == "late" else "it was for practice"
+        raise Conflict(f"this click counts for nothing: {why}", remedy="correct a click that counts")
+    if row.undone_at is not None:
+        raise Conflict("this click was taken back", remedy="correct a click that counts")
+    if proposal.closed_at is None:
+        raise Conflict(
+            f"proposal {proposal.id} is still open", remedy="take the click back, and click anew; or wait for its end"
+        )
+
+
+def _labels(session: Session, *where: ColumnElement[bool]) -> list[StoredLabel]:
+    query = (
+        select(FeedbackRow.id, ObservationRow.state, ProposalRow.skill, ProposalRow.parameters, value_now())
+        .join(ProposalRow, ProposalRow.id == FeedbackRow.proposal_id)
+        .join(ObservationRow, ObservationRow.id == ProposalRow.observation_id)
+        .where(
+            *where,
+            FeedbackRow.status == "stored",
+            FeedbackRow.undone_at.is_(None),
+            ProposalRow.purpose == "training",
+            # a time-out trains nothing, whoever voted before it; where nobody could tell, a correction does
+            or_(ProposalRow.verdict.is_not(None), ProposalRow.close_reason == "cant_tell"),
+        )
+        .order_by(FeedbackRow.id)
+    )
+    return [
+        StoredLabel(feedback_id, tuple(state), skill, tuple(parameters), value)
+        for feedback_id, state, skill, parameters, value in session.execute(query)
+        if value is not None
+    ]
