@@ -24,8 +24,24 @@ from server.schemas_problems import Problem
 # --- stream: server to client -------------------------------------------------------------------------------------
 
 
-class Snapshot(Wire):
-    """Everything a page needs to draw itself; sent first on every connection, and again after a resync."""
+class Event(Wire):
+    """Base of what the server tells everyone who watches an experiment."""
+
+    seq: Annotated[
+        int | None,
+        Field(
+            description="the event's number in the experiment's stream, from 1 since the service started (`boot_id`); "
+            "null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear "
+            "what was missed"
+        ),
+    ] = None
+
+
+class Snapshot(Event):
+    """Everything a page needs to draw itself: the first message of a connection that doesn't go on where one ended.
+
+    Its `seq` is that of the last event before it.
+    """
 
     type: Literal["snapshot"] = "snapshot"
     experiment: Experiment
@@ -38,28 +54,35 @@ class Snapshot(Wire):
     boot_id: Annotated[str, Field(description="changes when the server restarts")]
 
 
-class ExperimentChanged(Wire):
+class Resumed(Event):
+    """The first message of a connection that goes on where one ended: the missed events follow, none is missing."""
+
+    type: Literal["resumed"] = "resumed"
+    missed: Annotated[int, Field(description="how many events follow that happened in between")]
+
+
+class ExperimentChanged(Event):
     """Lifecycle, phase, mode, halt or counters changed."""
 
     type: Literal["experiment_changed"] = "experiment_changed"
     experiment: Experiment
 
 
-class ProposalOpened(Wire):
+class ProposalOpened(Event):
     """A proposal waits for feedback; it is already stored."""
 
     type: Literal["proposal_opened"] = "proposal_opened"
     proposal: Proposal
 
 
-class ProposalClosed(Wire):
+class ProposalClosed(Event):
     """A proposal is closed; `proposal.verdict`, `.close_reason` and `.gate` say how."""
 
     type: Literal["proposal_closed"] = "proposal_closed"
     proposal: Proposal
 
 
-class FeedbackStored(Wire):
+class FeedbackStored(Event):
     """A click is committed. `undoable` says whether it can still be undone."""
 
     type: Literal["feedback_stored"] = "feedback_stored"
@@ -67,28 +90,28 @@ class FeedbackStored(Wire):
     undoable: bool
 
 
-class FeedbackUndone(Wire):
+class FeedbackUndone(Event):
     """A click was taken back; its proposal is open again (a `proposal_opened` follows)."""
 
     type: Literal["feedback_undone"] = "feedback_undone"
     feedback: Feedback
 
 
-class FeedbackRelabelled(Wire):
+class FeedbackRelabelled(Event):
     """A click on a closed proposal was corrected: the learner follows, its verdict and what moved by it stay."""
 
     type: Literal["feedback_relabelled"] = "feedback_relabelled"
     feedback: Feedback
 
 
-class ExecutionStarted(Wire):
+class ExecutionStarted(Event):
     """The robot moves; frames follow."""
 
     type: Literal["execution_started"] = "execution_started"
     execution: Execution
 
 
-class ExecutionEnded(Wire):
+class ExecutionEnded(Event):
     """The robot stands still again."""
 
     type: Literal["execution_ended"] = "execution_ended"
@@ -96,14 +119,14 @@ class ExecutionEnded(Wire):
     violations: list[str] = []  # noqa: RUF012 - pydantic copies it
 
 
-class MetricsAdded(Wire):
+class MetricsAdded(Event):
     """A new metric point."""
 
     type: Literal["metrics_added"] = "metrics_added"
     point: MetricPoint
 
 
-class WorkerChanged(Wire):
+class WorkerChanged(Event):
     """A worker process started, died or was restarted."""
 
     type: Literal["worker_changed"] = "worker_changed"
@@ -113,7 +136,7 @@ class WorkerChanged(Wire):
     detail: str
 
 
-class EvaluationChanged(Wire):
+class EvaluationChanged(Event):
     """An evaluation started, went on or ended."""
 
     type: Literal["evaluation_changed"] = "evaluation_changed"
@@ -121,7 +144,7 @@ class EvaluationChanged(Wire):
     done: int
 
 
-class Acknowledged(Wire):
+class Acknowledged(Event):
     """Answer to a client's message; for feedback it comes after the commit."""
 
     type: Literal["acknowledged"] = "acknowledged"
@@ -129,7 +152,7 @@ class Acknowledged(Wire):
     feedback: Feedback | None = None
 
 
-class Refused(Wire):
+class Refused(Event):
     """Answer to a client's message that could not be taken; nothing changed."""
 
     type: Literal["refused"] = "refused"
@@ -137,7 +160,7 @@ class Refused(Wire):
     problem: Problem
 
 
-class Pong(Wire):
+class Pong(Event):
     """Answer to a ping."""
 
     type: Literal["pong"] = "pong"
@@ -145,6 +168,7 @@ class Pong(Wire):
 
 StreamEvent = Annotated[
     Snapshot
+    | Resumed
     | ExperimentChanged
     | ProposalOpened
     | ProposalClosed

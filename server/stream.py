@@ -1,7 +1,8 @@
 """The WebSocket of an experiment: snapshot, events, newest frames, and what a viewer may send.
 
 Events are serialised once and queued per viewer; frames are never queued, the newest of a camera replaces the one
-before. A viewer that doesn't keep up is disconnected (1013) and finds its way back by a snapshot: nobody waits for it.
+before. A viewer that doesn't keep up is disconnected (1013) and finds its way back by what it missed, or by a snapshot:
+nobody waits for it.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ import asyncio
 import contextlib
 import json
 import struct
-from collections import deque
+from collections import defaultdict, deque
 from collections.abc import Coroutine, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -18,6 +19,7 @@ from typing import Any
 from fastapi import WebSocket, WebSocketDisconnect
 from pydantic import TypeAdapter, ValidationError
 
+from server.backlog import Backlog
 from server.errors import problem, problem_of
 from server.hub import Hub
 from server.messages import (
@@ -115,12 +117,25 @@ class Rooms:
     def __init__(self, *, queue_limit: int) -> None:
         self._queue_limit = queue_limit
         self._rooms: dict[int, set[Outbox]] = {}
+        self._backlogs: defaultdict[int, Backlog] = defaultdict(lambda: Backlog(queue_limit))
+
+    def newest(self, experiment_id: int) -> int:
+        """Number of the experiment's last event."""
+        backlog = self._backlogs.get(experiment_id)
+        return 0 if backlog is None else backlog.newest
+
+    def missed(self, experiment_id: int, since: int) -> list[str] | None:
+        """The events after that number, in order; None where they aren't known any more."""
+        backlog = self._backlogs.get(experiment_id)
+        events = None if backlog is None else backlog.since(since)
+        return None if events is None else [event.model_dump_json() for event in events]
 
     def publish(self, experiment_id: int, event: StreamEvent) -> None:
         """Queue an event for every viewer of the experiment; never blocks."""
+        numbered = self._backlogs[experiment_id].add(event)
         room = self._rooms.get(experiment_id)
         if room:
-            text = event.model_dump_json()
+            text = numbered.model_dump_json()
             for outbox in room:
                 outbox.event(text)
 

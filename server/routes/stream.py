@@ -7,7 +7,7 @@ from typing import Annotated, get_args
 from fastapi import APIRouter, Body, FastAPI, WebSocket, WebSocketDisconnect
 
 from server.errors import problem, problem_of, response
-from server.messages import ClientMessage, FrameHeader, StreamEvent
+from server.messages import ClientMessage, FrameHeader, Resumed, StreamEvent
 from server.routes.dependencies import LARGEST_ID
 from server.service import Service
 from server.store_errors import StoreError
@@ -17,25 +17,34 @@ router = APIRouter()
 
 
 @router.websocket("/experiments/{experiment_id}/stream")
-async def stream(socket: WebSocket, experiment_id: str) -> None:
-    """A snapshot, then everything that happens."""
+async def stream(socket: WebSocket, experiment_id: str, boot_id: str = "", since: str = "") -> None:
+    """A snapshot, or what was missed since the event `since` of this `boot_id`; then everything that happens."""
     service: Service = socket.app.state.service
     if not experiment_id.isascii() or not experiment_id.isdigit() or int(experiment_id[:20]) > LARGEST_ID:
         details = problem(404, f"there is no experiment {experiment_id[:40]!r}", remedy="see GET /api/v1/experiments")
         await socket.send_denial_response(response(details))
         return
     watched = int(experiment_id)
+    same_run = boot_id == socket.app.state.boot_id and since.isascii() and since.isdigit()
     # first listen, then look: whatever happens while the snapshot is read comes after it, some of it twice,
     # and every event carries the whole of what it is about, so twice is harmless
     with service.rooms.join(watched) as outbox:
+        newest = service.rooms.newest(watched)
+        missed = service.rooms.missed(watched, int(since[:20])) if same_run else None
         try:
-            snapshot = await service.hub.snapshot(watched, socket.app.state.boot_id)
+            if missed is None:
+                snapshot = await service.hub.snapshot(watched, socket.app.state.boot_id)
+                first = [snapshot.model_copy(update={"seq": newest}).model_dump_json()]
+            else:
+                await service.store.experiment(watched)
+                first = [Resumed(seq=newest, missed=len(missed)).model_dump_json(), *missed]
         except StoreError as error:
             await socket.send_denial_response(response(problem_of(error)))
             return
         await socket.accept()
         try:
-            await socket.send_text(snapshot.model_dump_json())
+            for message in first:
+                await socket.send_text(message)
         except WebSocketDisconnect:
             return
         await Connection(socket, outbox, service.hub, service.store, watched).serve()

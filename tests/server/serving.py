@@ -78,8 +78,9 @@ class Serving:
         return {"click_id": f"click-{next(self._counts):08d}", "value": value} | fields
 
     def stream(self, experiment_id: int | str, **options: Any) -> connect:
-        """A WebSocket on the experiment's stream, to be entered."""
-        address = self.url.replace("http", "ws", 1) + f"/api/v1/experiments/{experiment_id}/stream"
+        """A WebSocket on the experiment's stream, to be entered; instead of the id, its path may go on by itself."""
+        path = f"{experiment_id}/stream" if "/" not in str(experiment_id) else experiment_id
+        address = self.url.replace("http", "ws", 1) + f"/api/v1/experiments/{path}"
         return connect(address, **({"max_size": None} | options))
 
 

@@ -109,6 +109,31 @@ async def test_nothing_is_missed_between_snapshot_and_events(tmp_path: Path) -> 
         await publisher
 
 
+async def test_who_comes_back_hears_what_was_missed_and_nothing_twice(tmp_path: Path) -> None:
+    async with serving(tmp_path, viewer_queue=8) as live:
+        experiment = await live.experiment()
+        rooms = live.service.rooms
+        async with live.stream(experiment) as viewer:
+            boot_id = (await heard(viewer))["boot_id"]
+            rooms.publish(experiment, metric(1))
+            last = (await heard(viewer))["seq"]
+        for number in range(2, 6):
+            rooms.publish(experiment, metric(number))
+        async with live.stream(f"{experiment}/stream?boot_id={boot_id}&since={last}") as viewer:
+            resumed = await heard(viewer)
+            assert (resumed["type"], resumed["missed"], resumed["seq"]) == ("resumed", 4, last + 4)
+            rooms.publish(experiment, metric(6))
+            missed = [await heard(viewer) for _ in range(5)]
+            assert [told["point"]["feedback"] for told in missed] == [2, 3, 4, 5, 6]
+            assert [told["seq"] for told in missed] == list(range(last + 1, last + 6))
+        for number in range(20):
+            rooms.publish(experiment, metric(number))
+        forgotten = (f"boot_id={boot_id}&since={last}", f"boot_id={boot_id}&since={last + 10_000}")
+        for question in (*forgotten, f"boot_id=another-run&since={last + 5}", f"boot_id={boot_id}&since=-1", "since=x"):
+            async with live.stream(f"{experiment}/stream?{question}") as viewer:
+                assert (await heard(viewer))["type"] == "snapshot", question
+
+
 async def test_every_viewer_of_an_experiment_hears_the_same_and_no_other_experiment(tmp_path: Path) -> None:
     async with serving(tmp_path) as live:
         first, second = await live.experiment(), await live.experiment()

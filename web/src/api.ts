@@ -870,9 +870,31 @@ export interface webhooks {
         put?: never;
         /**
          * Event snapshot
-         * @description Everything a page needs to draw itself; sent first on every connection, and again after a resync.
+         * @description Everything a page needs to draw itself: the first message of a connection that doesn't go on where one ended.
+         *
+         *     Its `seq` is that of the last event before it.
          */
         post: operations["event_snapshot"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "stream-event/resumed": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Event resumed
+         * @description The first message of a connection that goes on where one ended: the missed events follow, none is missing.
+         */
+        post: operations["event_resumed"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1167,6 +1189,11 @@ export interface components {
          * @description Answer to a client's message; for feedback it comes after the commit.
          */
         Acknowledged: {
+            /**
+             * Seq
+             * @description the event's number in the experiment's stream, from 1 since the service started (`boot_id`); null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear what was missed
+             */
+            seq: number | null;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -1615,6 +1642,11 @@ export interface components {
          */
         EvaluationChanged: {
             /**
+             * Seq
+             * @description the event's number in the experiment's stream, from 1 since the service started (`boot_id`); null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear what was missed
+             */
+            seq: number | null;
+            /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
              */
@@ -1711,6 +1743,11 @@ export interface components {
          */
         ExecutionEnded: {
             /**
+             * Seq
+             * @description the event's number in the experiment's stream, from 1 since the service started (`boot_id`); null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear what was missed
+             */
+            seq: number | null;
+            /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
              */
@@ -1743,6 +1780,11 @@ export interface components {
          * @description The robot moves; frames follow.
          */
         ExecutionStarted: {
+            /**
+             * Seq
+             * @description the event's number in the experiment's stream, from 1 since the service started (`boot_id`); null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear what was missed
+             */
+            seq: number | null;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -1823,6 +1865,11 @@ export interface components {
          * @description Lifecycle, phase, mode, halt or counters changed.
          */
         ExperimentChanged: {
+            /**
+             * Seq
+             * @description the event's number in the experiment's stream, from 1 since the service started (`boot_id`); null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear what was missed
+             */
+            seq: number | null;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -2021,6 +2068,11 @@ export interface components {
          */
         FeedbackRelabelled: {
             /**
+             * Seq
+             * @description the event's number in the experiment's stream, from 1 since the service started (`boot_id`); null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear what was missed
+             */
+            seq: number | null;
+            /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
              */
@@ -2039,6 +2091,11 @@ export interface components {
          */
         FeedbackStored: {
             /**
+             * Seq
+             * @description the event's number in the experiment's stream, from 1 since the service started (`boot_id`); null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear what was missed
+             */
+            seq: number | null;
+            /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
              */
@@ -2052,6 +2109,11 @@ export interface components {
          * @description A click was taken back; its proposal is open again (a `proposal_opened` follows).
          */
         FeedbackUndone: {
+            /**
+             * Seq
+             * @description the event's number in the experiment's stream, from 1 since the service started (`boot_id`); null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear what was missed
+             */
+            seq: number | null;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -2154,6 +2216,11 @@ export interface components {
          */
         MetricsAdded: {
             /**
+             * Seq
+             * @description the event's number in the experiment's stream, from 1 since the service started (`boot_id`); null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear what was missed
+             */
+            seq: number | null;
+            /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
              */
@@ -2244,6 +2311,11 @@ export interface components {
          * @description Answer to a ping.
          */
         Pong: {
+            /**
+             * Seq
+             * @description the event's number in the experiment's stream, from 1 since the service started (`boot_id`); null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear what was missed
+             */
+            seq: number | null;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -2365,6 +2437,11 @@ export interface components {
          */
         ProposalClosed: {
             /**
+             * Seq
+             * @description the event's number in the experiment's stream, from 1 since the service started (`boot_id`); null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear what was missed
+             */
+            seq: number | null;
+            /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
              */
@@ -2376,6 +2453,11 @@ export interface components {
          * @description A proposal waits for feedback; it is already stored.
          */
         ProposalOpened: {
+            /**
+             * Seq
+             * @description the event's number in the experiment's stream, from 1 since the service started (`boot_id`); null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear what was missed
+             */
+            seq: number | null;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -2410,6 +2492,11 @@ export interface components {
          * @description Answer to a client's message that could not be taken; nothing changed.
          */
         Refused: {
+            /**
+             * Seq
+             * @description the event's number in the experiment's stream, from 1 since the service started (`boot_id`); null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear what was missed
+             */
+            seq: number | null;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -2468,6 +2555,27 @@ export interface components {
             trainer: string;
         };
         /**
+         * Resumed
+         * @description The first message of a connection that goes on where one ended: the missed events follow, none is missing.
+         */
+        Resumed: {
+            /**
+             * Seq
+             * @description the event's number in the experiment's stream, from 1 since the service started (`boot_id`); null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear what was missed
+             */
+            seq: number | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "resumed";
+            /**
+             * Missed
+             * @description how many events follow that happened in between
+             */
+            missed: number;
+        };
+        /**
          * Skill
          * @description A primitive that a task offers.
          */
@@ -2484,9 +2592,16 @@ export interface components {
         };
         /**
          * Snapshot
-         * @description Everything a page needs to draw itself; sent first on every connection, and again after a resync.
+         * @description Everything a page needs to draw itself: the first message of a connection that doesn't go on where one ended.
+         *
+         *     Its `seq` is that of the last event before it.
          */
         Snapshot: {
+            /**
+             * Seq
+             * @description the event's number in the experiment's stream, from 1 since the service started (`boot_id`); null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear what was missed
+             */
+            seq: number | null;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -2814,6 +2929,11 @@ export interface components {
          * @description A worker process started, died or was restarted.
          */
         WorkerChanged: {
+            /**
+             * Seq
+             * @description the event's number in the experiment's stream, from 1 since the service started (`boot_id`); null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear what was missed
+             */
+            seq: number | null;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -5845,7 +5965,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["Snapshot"] | components["schemas"]["ExperimentChanged"] | components["schemas"]["ProposalOpened"] | components["schemas"]["ProposalClosed"] | components["schemas"]["FeedbackStored"] | components["schemas"]["FeedbackUndone"] | components["schemas"]["FeedbackRelabelled"] | components["schemas"]["ExecutionStarted"] | components["schemas"]["ExecutionEnded"] | components["schemas"]["MetricsAdded"] | components["schemas"]["WorkerChanged"] | components["schemas"]["EvaluationChanged"] | components["schemas"]["Acknowledged"] | components["schemas"]["Refused"] | components["schemas"]["Pong"];
+                "application/json": components["schemas"]["Snapshot"] | components["schemas"]["Resumed"] | components["schemas"]["ExperimentChanged"] | components["schemas"]["ProposalOpened"] | components["schemas"]["ProposalClosed"] | components["schemas"]["FeedbackStored"] | components["schemas"]["FeedbackUndone"] | components["schemas"]["FeedbackRelabelled"] | components["schemas"]["ExecutionStarted"] | components["schemas"]["ExecutionEnded"] | components["schemas"]["MetricsAdded"] | components["schemas"]["WorkerChanged"] | components["schemas"]["EvaluationChanged"] | components["schemas"]["Acknowledged"] | components["schemas"]["Refused"] | components["schemas"]["Pong"];
             };
         };
         responses: {
@@ -5912,6 +6032,28 @@ export interface operations {
         requestBody: {
             content: {
                 "application/json": components["schemas"]["Snapshot"];
+            };
+        };
+        responses: {
+            /** @description Sent over the WebSocket; there is no answer to it */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    event_resumed: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Resumed"];
             };
         };
         responses: {

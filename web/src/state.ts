@@ -177,6 +177,7 @@ function onEvent(state: TrainerState, event: StreamEvent): TrainerState {
       return onAcknowledged(state, event.request_id, event.feedback ?? null);
     case "refused":
       return onRefused(state, event.request_id, event.problem);
+    case "resumed":
     case "pong":
       return state;
   }

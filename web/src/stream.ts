@@ -23,6 +23,8 @@ export class Stream {
   /** Since when an answer is owed: a hidden tab's timers sleep, so silence alone proves nothing. */
   private owedSince: number | null = null;
   private closed = false;
+  /** Where to go on after a break: the service's run, and the number of the last event heard in it. */
+  private heard: { bootId: string; seq: number } | null = null;
 
   constructor(
     private readonly url: string,
@@ -58,7 +60,9 @@ export class Stream {
   private connect(): void {
     clearTimeout(this.retry);
     this.handlers.onConnection("connecting");
-    const socket = new WebSocket(this.url);
+    const { heard } = this;
+    const since = heard ? `?${new URLSearchParams({ boot_id: heard.bootId, since: `${heard.seq}` })}` : "";
+    const socket = new WebSocket(this.url + since);
     socket.binaryType = "arraybuffer";
     this.socket = socket;
     this.owedSince = Date.now();
@@ -77,7 +81,9 @@ export class Stream {
       return;
     }
     const event = JSON.parse(data) as StreamEvent;
-    if (event.type === "snapshot") {
+    if (event.type === "snapshot") this.heard = { bootId: event.boot_id, seq: event.seq ?? 0 };
+    else if (event.type !== "resumed" && event.seq && this.heard) this.heard.seq = event.seq;
+    if (event.type === "snapshot" || event.type === "resumed") {
       // Only now is the page in step with the service: an open socket alone promises nothing.
       this.wait = FIRST_WAIT_MS;
       this.handlers.onEvent(event);

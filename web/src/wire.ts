@@ -26,8 +26,14 @@ export type TeacherInfo = Schemas["TeacherInfo"];
 export type Problem = Schemas["Problem"];
 export type FrameHeader = Schemas["FrameHeader"];
 
-export type StreamEvent =
+/** Only the connection itself needs the events' numbers. */
+type Numbered<Event> = Event extends { seq: number | null }
+  ? Omit<Event, "seq"> & Partial<Pick<Event, "seq">>
+  : never;
+
+export type StreamEvent = Numbered<
   | Schemas["Snapshot"]
+  | Schemas["Resumed"]
   | Schemas["ExperimentChanged"]
   | Schemas["ProposalOpened"]
   | Schemas["ProposalClosed"]
@@ -41,7 +47,8 @@ export type StreamEvent =
   | Schemas["EvaluationChanged"]
   | Schemas["Acknowledged"]
   | Schemas["Refused"]
-  | Schemas["Pong"];
+  | Schemas["Pong"]
+>;
 
 export type ClientMessage =
   | Schemas["ClientFeedback"]

@@ -1,5 +1,6 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { type Connection, Stream } from "../src/stream";
+import type { StreamEvent } from "../src/wire";
 import { snapshot } from "./messages";
 
 /** The browser's socket with its wires exposed. */
@@ -23,8 +24,11 @@ class Socket {
     this.onclose?.();
   }
   accept(): void {
+    this.hear(snapshot());
+  }
+  hear(event: StreamEvent): void {
     this.readyState = Socket.OPEN;
-    this.onmessage?.({ data: JSON.stringify(snapshot()) });
+    this.onmessage?.({ data: JSON.stringify(event) });
   }
   static newest(): Socket {
     const socket = Socket.made.at(-1);
@@ -71,6 +75,20 @@ describe("stream", () => {
     expect(Socket.made.length).toBe(2);
     vi.advanceTimersByTime(400);
     expect(Socket.made.length).toBe(3);
+  });
+
+  it("goes on after the last event that it heard", () => {
+    Socket.newest().hear({ ...snapshot(), boot_id: "run-1", seq: 7 });
+    Socket.newest().hear({ type: "metrics_added", point: { feedback: 1, at: "", values: {} }, seq: 8 });
+    Socket.newest().hear({ type: "pong", seq: null });
+    Socket.newest().close();
+    vi.advanceTimersByTime(400);
+    expect(Socket.newest().url).toBe("ws://service/stream?boot_id=run-1&since=8");
+    Socket.newest().hear({ type: "resumed", missed: 1, seq: 9 });
+    expect(states.at(-1)).toBe("open");
+    Socket.newest().close(); // before the missed event came
+    vi.advanceTimersByTime(400);
+    expect(Socket.newest().url).toBe("ws://service/stream?boot_id=run-1&since=8");
   });
 
   it("tries at once when the device is online again", () => {
