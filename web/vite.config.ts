@@ -6,6 +6,11 @@ const service = process.env.SEED_URL ?? "http://127.0.0.1:8000";
 
 export default defineConfig({
   plugins: [react()],
-  build: { outDir: "../server/static", emptyOutDir: true, target: "es2022" },
+  build: {
+    outDir: "../server/static",
+    emptyOutDir: true,
+    target: "es2022",
+    cssTarget: ["chrome123", "firefox120", "safari17.5"],
+  },
   server: { proxy: { "/api": { target: service, ws: true } } },
 });

@@ -23,9 +23,13 @@ def accessible(page: Page) -> None:
     assert found.violations_count == 0, found.generate_report()
 
 
+FITS = "document.documentElement.scrollWidth <= document.documentElement.clientWidth"
+"""Whether nothing sticks out sideways; a chart takes a frame to follow a new width."""
+
+
 def fits(page: Page) -> bool:
     """Whether nothing sticks out sideways."""
-    return bool(page.evaluate("document.documentElement.scrollWidth <= document.documentElement.clientWidth"))
+    return bool(page.evaluate(FITS))
 
 
 def tab_to(page: Page, selector: str) -> None:
@@ -67,6 +71,22 @@ def test_an_experiment_that_does_not_exist_says_so(page: Page, service: LiveServ
     expect(page.get_by_role("alert")).to_contain_text("999999")
     page.goto(f"{service.url}/nowhere")
     expect(page.get_by_role("heading")).to_have_text("There is no such page")
+
+
+def test_colours_and_language_are_chosen_and_remembered(page: Page, service: LiveService) -> None:
+    page.emulate_media(color_scheme="dark")
+    page.goto(service.url)
+    body = page.locator("body")
+    dark = body.evaluate("body => getComputedStyle(body).backgroundColor")
+    page.get_by_test_id("preferences").click()
+    page.get_by_test_id("theme-light").check(force=True)  # the input lies invisibly over its label
+    page.get_by_role("dialog").get_by_role("combobox").select_option("de")
+    expect(page.locator("html")).to_have_attribute("lang", "de")
+    accessible(page)
+    page.get_by_test_id("preferences-done").click()
+    page.reload()
+    expect(page.get_by_role("heading", name="Experimente")).to_be_visible()
+    assert body.evaluate("body => getComputedStyle(body).backgroundColor") != dark
 
 
 def test_everything_works_by_keyboard_alone(page: Page, service: LiveService) -> None:

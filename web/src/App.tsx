@@ -1,6 +1,8 @@
 // Which page the address names.
+
 import { useEffect } from "react";
 import { Header } from "./components/Header";
+import { t, useLanguage } from "./i18n";
 import { ExperimentsPage } from "./pages/ExperimentsPage";
 import { StudiesPage } from "./pages/StudiesPage";
 import { StudyPage } from "./pages/StudyPage";
@@ -9,6 +11,7 @@ import { Link, usePath } from "./router";
 
 export function App() {
   const path = usePath();
+  useLanguage(); // a new language draws everything below anew
   const trainer = /^\/experiments\/(\d+)\/?$/.exec(path);
   useEffect(() => {
     if (!trainer) document.title = "SEED";
@@ -23,10 +26,10 @@ export function App() {
       <Header />
       <main className="page narrow">
         <div className="empty">
-          <h1>There is no such page</h1>
-          <p>The address names nothing here.</p>
+          <h1>{t("problem.noPage")}</h1>
+          <p>{t("problem.noPageWhat")}</p>
           <Link to="/" className="button primary">
-            All experiments
+            {t("common.allExperiments")}
           </Link>
         </div>
       </main>

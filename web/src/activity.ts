@@ -1,4 +1,5 @@
 // What is going on now, in words.
+import { skillName, t } from "./i18n";
 import { isOpen } from "./robots";
 import { pendingFor, type TrainerState, wordFor } from "./state";
 
@@ -13,24 +14,29 @@ const busy = (text: string): Activity => ({ tone: "busy", text });
 /** `drawn`: whether the newest proposal is on the screen with its pictures. */
 export function activity(state: TrainerState, drawn: boolean): Activity {
   const { experiment } = state;
-  if (!experiment)
-    return busy(state.connection === "lost" ? "The service doesn't answer. Trying again." : "Loading");
-  if (experiment.halted) return { tone: "stopped", text: "Emergency stop. Nothing moves until you re-arm." };
+  if (!experiment) return busy(state.connection === "lost" ? t("activity.noAnswer") : t("activity.loading"));
+  if (experiment.halted) return { tone: "stopped", text: t("activity.halted") };
   const { phase, lifecycle } = experiment;
   // A pause lets a skill that moves end: until then the page may not say that nothing does.
   if (lifecycle !== "running" && phase !== "evaluating" && (state.execution || phase === "executing"))
-    return { tone: "moving", text: `Finishing ${state.execution?.skill ?? "the skill"}, then ${lifecycle}` };
+    return {
+      tone: "moving",
+      text: t("activity.finishing", {
+        skill: state.execution ? skillName(state.execution.skill) : t("activity.theSkill"),
+        lifecycle: t(`lifecycle.${lifecycle}`),
+      }),
+    };
   switch (lifecycle) {
     case "created":
-      return phase === "evaluating" ? evaluating(state) : still("Not started yet");
+      return phase === "evaluating" ? evaluating(state) : still(t("activity.notStarted"));
     case "paused":
-      return phase === "evaluating" ? evaluating(state) : still("Paused. Nothing moves.");
+      return phase === "evaluating" ? evaluating(state) : still(t("activity.paused"));
     case "finished":
-      return phase === "evaluating" ? evaluating(state) : still("Finished");
+      return phase === "evaluating" ? evaluating(state) : still(t("activity.finished"));
     case "failed":
-      return { tone: "stopped", text: "Failed. The message at the top says why." };
+      return { tone: "stopped", text: t("activity.failed") };
     case "archived":
-      return still("Archived");
+      return still(t("activity.archived"));
     case "running":
       return running(state, drawn);
   }
@@ -40,40 +46,44 @@ function running(state: TrainerState, drawn: boolean): Activity {
   const { execution, proposal, experiment } = state;
   if (execution) {
     const critic = proposal?.id === execution.proposal_id && proposal.verdict_source === "critic";
-    const why = critic ? ", approved by the critic" : "";
-    return { tone: "moving", text: `Executing ${execution.skill}${why}, live video` };
+    const skill = skillName(execution.skill);
+    return {
+      tone: "moving",
+      text: critic ? t("activity.executingByCritic", { skill }) : t("activity.executingSkill", { skill }),
+    };
   }
   if (experiment?.phase === "evaluating") return evaluating(state);
   if (proposal && isOpen(proposal) && proposal.purpose !== "evaluation") return waiting(state, drawn);
   switch (experiment?.phase) {
     case "starting":
-      return busy("Starting the robot and the learner");
+      return busy(t("activity.starting"));
     case "learning":
-      return busy("Learning from your feedback");
+      return busy(t("activity.learning"));
     case "deciding":
-      return busy("Checking whether it may move");
+      return busy(t("activity.deciding"));
     case "executing":
-      return { tone: "moving", text: "Executing, live video" };
+      return { tone: "moving", text: t("activity.executing") };
     case "observing":
-      return busy("Looking at the scene");
+      return busy(t("activity.observing"));
     default:
-      return busy("Thinking of a proposal");
+      return busy(t("activity.busy"));
   }
 }
 
 function waiting(state: TrainerState, drawn: boolean): Activity {
-  if (state.experiment?.teacher) return busy(`The ${state.experiment.teacher} teacher is judging`);
+  if (state.experiment?.teacher) return busy(t("activity.teacher", { teacher: state.experiment.teacher }));
   const pending = state.proposal ? pendingFor(state, state.proposal.id) : null;
-  if (!drawn) return busy("Loading the pictures");
-  if (pending === null) return { tone: "you", text: "Waiting for you" };
-  return busy(
-    state.connection === "open"
-      ? `Sending “${wordFor(pending)}”`
-      : `“${wordFor(pending)}” is kept until the connection is back`,
-  );
+  if (!drawn) return busy(t("activity.pictures"));
+  if (pending === null) return { tone: "you", text: t("activity.you") };
+  const word = wordFor(pending);
+  return busy(state.connection === "open" ? t("activity.sending", { word }) : t("activity.kept", { word }));
 }
 
 function evaluating(state: TrainerState): Activity {
   const rollouts = state.evaluation?.rollouts;
-  return busy(rollouts ? `Evaluating: ${state.evaluationDone} of ${rollouts} rollouts` : "Evaluating");
+  return busy(
+    rollouts
+      ? t("activity.evaluatingCount", { done: state.evaluationDone, rollouts })
+      : t("activity.evaluating"),
+  );
 }

@@ -1,4 +1,5 @@
 // REST: JSON in and out; every failure becomes an `ApiError` that carries problem details with a remedy.
+import { t } from "./i18n";
 import type {
   AdapterInfo,
   AlgorithmInfo,
@@ -29,27 +30,27 @@ export class ApiError extends Error {
   }
 }
 
-const unreachable: Problem = {
+const unreachable = (): Problem => ({
   type: "about:blank",
-  title: "No answer",
+  title: t("problem.noAnswerTitle"),
   status: 0,
-  detail: "The service doesn't answer.",
-  remedy: "Check that it is running and that this device is on its network.",
+  detail: t("problem.noAnswer"),
+  remedy: t("problem.unreachable"),
   fields: [],
-};
+});
 
 /** Any thrown value as problem details. */
 export function problemOf(error: unknown): Problem {
-  return error instanceof ApiError ? error.problem : unreachable;
+  return error instanceof ApiError ? error.problem : unreachable();
 }
 
 async function problemFrom(response: Response): Promise<Problem> {
   const fallback: Problem = {
     type: "about:blank",
-    title: response.statusText || "Error",
+    title: response.statusText || t("problem.error"),
     status: response.status,
-    detail: `The service answered ${response.status}.`,
-    remedy: "Try again; if it stays, look at the service's log.",
+    detail: t("problem.answered", { status: response.status }),
+    remedy: t("problem.log"),
     fields: [],
   };
   try {
@@ -68,7 +69,7 @@ async function request<T>(method: string, path: string, body?: unknown): Promise
       body: body === undefined ? null : JSON.stringify(body),
     });
   } catch {
-    throw new ApiError(unreachable);
+    throw new ApiError(unreachable());
   }
   if (!response.ok) throw new ApiError(await problemFrom(response));
   return (await response.json()) as T;

@@ -1,4 +1,5 @@
 // What the page knows of each robot of the experiment, and which of them it shows.
+import { t } from "./i18n";
 import type { Execution, Proposal, Value } from "./wire";
 
 export interface RobotState {
@@ -48,7 +49,7 @@ export function shownRobot(
   );
 }
 
-/** "Robot 2: " where there are several, at the start of a sentence about one. */
-export function saying(robots: RobotState[], robot: number): string {
-  return robots.length > 1 ? `Robot ${robot + 1}: ` : "";
+/** The sentence, and before it which robot it is about, where there are several. */
+export function saying(robots: RobotState[], robot: number, text: string): string {
+  return robots.length > 1 ? t("notice.ofRobot", { robot: robot + 1, text }) : text;
 }

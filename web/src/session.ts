@@ -1,7 +1,9 @@
 // Joins one experiment's stream, its outbox of clicks and the reducer: everything a trainer's page does to the world.
+
 import { type Dispatch, useEffect, useMemo, useReducer } from "react";
 import { FrameSink } from "./frames";
 import * as http from "./http";
+import { t } from "./i18n";
 import { newId } from "./ids";
 import { type Click, Outbox } from "./outbox";
 import { type Action, initial, reduce, type TrainerState } from "./state";
@@ -68,7 +70,7 @@ export class Session {
 
   undo(feedbackId: number): void {
     if (!this.stream.send({ type: "undo", request_id: newId(), feedback_id: feedbackId }))
-      this.dispatch({ kind: "notice", tone: "warning", text: "Not connected: nothing was taken back." });
+      this.dispatch({ kind: "notice", tone: "warning", text: t("notice.notTakenBack") });
   }
 
   /** By every way there is, and again until it is confirmed. */

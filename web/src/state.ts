@@ -1,4 +1,5 @@
 // All a trainer's page knows, in one reducer fed by the stream. Pure; the effects are in session.ts.
+import { skillName, t } from "./i18n";
 import type { Click } from "./outbox";
 import { isOpen, type Judged, type RobotState, STILL, saying, shownRobot } from "./robots";
 import type { Connection } from "./stream";
@@ -205,9 +206,7 @@ function onSnapshot(state: TrainerState, event: SnapshotEvent): TrainerState {
     judged: {}, // may have been undone meanwhile; a second click on the same proposal is the service's to refuse
   };
   const synced = withExperiment(next, event.experiment);
-  return restarted
-    ? withNotice(synced, "info", "The service restarted. This page is up to date again.")
-    : synced;
+  return restarted ? withNotice(synced, "info", t("notice.service")) : synced;
 }
 
 function withRobot(state: TrainerState, robot: number, change: Partial<RobotState>): TrainerState {
@@ -265,30 +264,28 @@ function withClosed(state: TrainerState, proposal: Proposal): TrainerState {
 
 function onExecutionEnded(state: TrainerState, execution: Execution, violations: string[]): TrainerState {
   const { robot } = execution;
-  const who = saying(state.robots, robot);
+  const say = (text: string) => saying(state.robots, robot, text);
   let next = state;
   if (state.robots[robot]?.execution?.id === execution.id)
     next = withRobot(state, robot, { execution: null });
-  if (execution.task_success) next = withNotice(next, "good", `${who}Task solved.`);
+  if (execution.task_success) next = withNotice(next, "good", say(t("notice.solved")));
   for (const violation of violations)
-    next = withNotice(next, "error", `${who}Safety violation: ${violation}`);
+    next = withNotice(next, "error", say(t("notice.violation", { violation })));
   if (execution.outcome === "interrupted")
-    next = withNotice(
-      next,
-      "warning",
-      `${who}The ${execution.skill} was interrupted. It won't be repeated by itself.`,
-    );
+    next = withNotice(next, "warning", say(t("notice.interrupted", { skill: skillName(execution.skill) })));
   return next;
 }
 
 type WorkerEvent = Extract<StreamEvent, { type: "worker_changed" }>;
 
 function onWorker(state: TrainerState, { worker, robot, status, detail }: WorkerEvent): TrainerState {
-  const of = state.robots.length > 1 ? `Robot ${(robot ?? 0) + 1}` : "The robot";
-  const name = worker === "robot" ? `${of}'s process` : "The learner's process";
+  const of =
+    state.robots.length > 1 ? t("notice.robotNumber", { robot: (robot ?? 0) + 1 }) : t("notice.robot");
+  const name = worker === "robot" ? of : t("notice.learner");
   if (status === "died")
-    return withNotice(state, "warning", `${name} died and is being restarted. ${detail}`.trim());
-  if (status === "restarted") return withNotice(state, "info", `${name} is back. ${detail}`.trim());
+    return withNotice(state, "warning", t("notice.died", { worker: name, detail }).trim());
+  if (status === "restarted")
+    return withNotice(state, "info", t("notice.restarted", { worker: name, detail }).trim());
   return state;
 }
 
@@ -299,7 +296,7 @@ function onAcknowledged(state: TrainerState, requestId: string, feedback: Feedba
   const judged = click ? { ...state.judged, [click.proposal_id]: click.value } : state.judged;
   const next = { ...state, pending, judged };
   if (feedback?.status !== "late") return next;
-  return withNotice(next, "warning", `Your “${wordFor(feedback.value)}” came too late: not counted.`);
+  return withNotice(next, "warning", t("notice.late", { word: wordFor(feedback.value) }));
 }
 
 function onRefused(state: TrainerState, requestId: string | null, problem: Problem): TrainerState {
@@ -348,8 +345,8 @@ function without(clicks: Click[], clickId: string): Click[] {
 }
 
 export function wordFor(value: Value): string {
-  if (value === "cant_tell") return "can't tell";
-  return value > 0 ? "good" : value < 0 ? "bad" : "neutral";
+  if (value === "cant_tell") return t("judge.word.cantTell");
+  return t(value > 0 ? "judge.word.good" : value < 0 ? "judge.word.bad" : "judge.word.neutral");
 }
 
 /** The click made for a proposal and not acknowledged yet. */

@@ -1,5 +1,7 @@
 // From a scenario's curves to what the chart draws.
+
 import type uPlot from "uplot";
+import { t } from "./i18n";
 import type { StudyScenario } from "./wire";
 
 export interface ChartLine {
@@ -27,15 +29,17 @@ const FAR = 4;
 
 /** A curve's name, and of how many seeds it is: those far behind the others aren't in it yet. */
 function labelOf(curve: StudyScenario["curves"][number]): string {
-  const seeds = curve.planned === 1 ? "seed" : "seeds";
-  return `${curve.title} (${curve.seeds}${curve.seeds < curve.planned ? ` of ${curve.planned}` : ""} ${seeds})`;
+  const { title, seeds, planned } = curve;
+  return seeds < planned
+    ? t("studies.legendSeedsOf", { title, seeds, count: planned })
+    : t("studies.legendSeeds", { title, count: planned });
 }
 
 /** The paper's first, so that ours lie above them. */
 export function linesOf(scenario: StudyScenario): ChartLine[] {
   const told = new Set<string>();
   const lines: ChartLine[] = scenario.paper.map((curve) => {
-    const label = told.has(curve.algorithm) ? null : `${curve.title}, paper`;
+    const label = told.has(curve.algorithm) ? null : t("studies.legendPaper", { title: curve.title });
     told.add(curve.algorithm);
     return { label, kind: "paper", color: COLORS[curve.algorithm] ?? COUNT - 1, x: curve.x, y: curve.y };
   });
@@ -64,8 +68,8 @@ export function notesOf(scenario: StudyScenario): string[] {
   const notes: string[] = [];
   if (isLogarithmic(linesOf(scenario))) {
     const hidden = scenario.curves.filter((curve) => curve.x.every((x) => x === 0)).map(labelOf);
-    notes.push("The axis is logarithmic and has no 0: evaluations before any training aren't drawn.");
-    if (hidden.length > 0) notes.push(`Only at 0, a seed having executed nothing: ${hidden.join(", ")}.`);
+    notes.push(t("studies.noteLogarithmic"));
+    if (hidden.length > 0) notes.push(t("studies.noteOnlyAtZero", { titles: hidden.join(", ") }));
   }
   const alike = new Map<string, string[]>();
   for (const curve of scenario.paper) {
@@ -73,7 +77,7 @@ export function notesOf(scenario: StudyScenario): string[] {
     alike.set(line, [...(alike.get(line) ?? []), curve.title]);
   }
   for (const titles of alike.values()) {
-    if (titles.length > 1) notes.push(`One line in the paper: ${titles.join(", ")}.`);
+    if (titles.length > 1) notes.push(t("studies.noteOneLine", { titles: titles.join(", ") }));
   }
   return notes;
 }

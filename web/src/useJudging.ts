@@ -1,5 +1,7 @@
 // Which presses count: those on a proposal that was on the screen long enough to be looked at. The others are told of.
+
 import { useEffect, useState } from "react";
+import { t } from "./i18n";
 import { queueOf } from "./robots";
 import { chosenFor, judgeable, type TrainerState } from "./state";
 import { useDrawnAt } from "./useDrawnAt";
@@ -29,14 +31,14 @@ export interface Judging {
 /** What to say of a press that doesn't count; nothing where judging isn't on offer at all. */
 function whyNot(state: TrainerState, ready: boolean): string | null {
   const { experiment, proposal } = state;
-  if (ready) return "Too fast, not counted: look at this one first.";
+  if (ready) return t("judge.tooFast");
   if (experiment?.lifecycle !== "running" || experiment.halted || experiment.teacher) return null;
   const waiting = queueOf(state.robots, state.judged);
   if (waiting.length > 0 && !waiting.some(({ robot }) => robot === state.shown))
-    return "Not counted: other robots wait to be judged. Press “In turn” to see their proposals.";
-  if (state.execution) return "Not counted: nothing to judge while the robot moves.";
-  if (proposal && chosenFor(state, proposal.id) !== null) return "Not counted: that one was judged already.";
-  return "Not counted: the next proposal isn’t here yet.";
+    return t("judge.otherRobots");
+  if (state.execution) return t("judge.moving");
+  if (proposal && chosenFor(state, proposal.id) !== null) return t("judge.already");
+  return t("judge.notYet");
 }
 
 /** `drawnId`: the open proposal that is drawn with its own pictures. */

@@ -1,5 +1,6 @@
 import { useEffect, useState } from "react";
 import type { Activity } from "../activity";
+import { t } from "../i18n";
 import type { Hint } from "../useJudging";
 
 const SETTLED_MS = 500;
@@ -32,7 +33,7 @@ export function ActivityLine({ activity, number, hint, canUndo, onUndo }: Activi
       <div className="activity" data-tone={activity.tone} data-testid="activity">
         <span className="dot" />
         <span>{activity.text}</span>
-        {number !== null && <small className="number">{`proposal ${number}`}</small>}
+        {number !== null && <small className="number">{t("activity.proposal", { number })}</small>}
       </div>
       <p className="sr-only" aria-live="polite">
         {spoken}
@@ -48,7 +49,7 @@ export function ActivityLine({ activity, number, hint, canUndo, onUndo }: Activi
         aria-keyshortcuts="U Control+Z"
         onClick={onUndo}
       >
-        Undo
+        {t("common.undo")}
         <span className="key keys" aria-hidden="true">
           U
         </span>

@@ -1,26 +1,24 @@
 // Letting the critic approve by itself, in simulation only: on or off, what it has approved, how trainers agreed.
+
 import * as http from "../http";
+import { t } from "../i18n";
+import { decimal, percent, signed } from "../i18n/numbers";
 import { lastRule, rememberRule } from "../lastRule";
 import { useLatest } from "../useLatest";
 import type { AutoApproval, AutoApprovalRecord, Experiment } from "../wire";
-import { signed } from "./Calibration";
 import type { Question } from "./Dialog";
-
-const percent = (share: number) => `${Math.round(100 * share)} %`;
 
 /** How trainers judged what the critic would have approved. */
 export function agreementIn({ audited, agreed, interval }: AutoApprovalRecord): string {
-  if (audited === 0) return "Not checked by a trainer yet.";
+  if (audited === 0) return t("autoApproval.unchecked");
   const [low, high] = interval;
-  return `Trainers agreed with ${agreed} of ${audited} checked (95 % interval ${percent(low)} to ${percent(high)}).`;
+  return t("autoApproval.agreed", { agreed, audited, low: percent(low), high: percent(high) });
 }
 
 /** Why it can't be turned on, or null. */
 export function obstacleTo(experiment: Experiment): string | null {
   const critics = experiment.settings.critics;
-  return typeof critics === "number" && critics >= 2
-    ? null
-    : "Needs two critics or more, which tell by their agreement how sure they are (preset “recommended”).";
+  return typeof critics === "number" && critics >= 2 ? null : t("autoApproval.critics");
 }
 
 export interface AutoApprovalProps {
@@ -42,20 +40,20 @@ const FIRST_RULE: Required<AutoApproval> = {
 /** What the rule says, in words. */
 export function ruleIn(rule: AutoApproval): string {
   const { predicted_at_least, uncertainty_at_most, after_feedback, audit_every } = { ...FIRST_RULE, ...rule };
-  return (
-    `Approves what is predicted ${signed(predicted_at_least)} or more, ±\u00a0${uncertainty_at_most.toFixed(2)} or less, ` +
-    `once ${after_feedback} feedbacks are stored. One in ${audit_every} of those waits for a trainer.`
-  );
+  return t("autoApproval.rule", {
+    predicted: signed(predicted_at_least),
+    uncertainty: decimal(uncertainty_at_most),
+    feedback: after_feedback,
+    every: audit_every,
+  });
 }
 
 function turnOn({ experiment, onSet }: AutoApprovalProps): Question {
   const rule = { ...FIRST_RULE, ...(experiment.auto_approval ?? lastRule(experiment.id)) };
   return {
-    title: "Let the critic approve by itself?",
-    text:
-      `The simulated robot then moves without your click. ${ruleIn(rule)} If you agree with it too rarely, this ends ` +
-      "by itself. Nothing is learned from the critic's own approvals, and Stop works as ever.",
-    yes: "Let it approve",
+    title: t("autoApproval.ask"),
+    text: t("autoApproval.asked", { rule: ruleIn(rule) }),
+    yes: t("autoApproval.yes"),
     testId: "auto-approval-confirm",
     act: () => onSet(rule),
   };
@@ -68,17 +66,17 @@ export function AutoApprovalCard(props: AutoApprovalProps & { record: AutoApprov
   const obstacle = obstacleTo(experiment);
   const approved = experiment.counters.auto_approved;
   return (
-    <section className="card" aria-label="Auto-approval">
-      <h2>Auto-approval</h2>
+    <section className="card" aria-label={t("autoApproval.title")}>
+      <h2>{t("autoApproval.title")}</h2>
       <div className="evaluation">
         <div className="result" data-testid="auto-approval" data-on={on}>
           {on || suspended || approved > 0 ? (
             <>
-              <b className="number">{`${approved} ${approved === 1 ? "motion" : "motions"} approved by the critic`}</b>
+              <b className="number">{t("autoApproval.approved", { count: approved })}</b>
               {record && <div className="soft">{agreementIn(record)}</div>}
             </>
           ) : (
-            <span className="soft">Off: every proposal waits for a trainer</span>
+            <span className="soft">{t("autoApproval.off")}</span>
           )}
         </div>
         {on ? (
@@ -91,7 +89,7 @@ export function AutoApprovalCard(props: AutoApprovalProps & { record: AutoApprov
               onSet(null);
             }}
           >
-            Turn off
+            {t("autoApproval.turnOff")}
           </button>
         ) : (
           <button
@@ -101,13 +99,13 @@ export function AutoApprovalCard(props: AutoApprovalProps & { record: AutoApprov
             disabled={obstacle !== null}
             onClick={() => onAsk(turnOn(props))}
           >
-            {suspended ? "Turn on again" : "Turn on"}
+            {suspended ? t("autoApproval.turnOnAgain") : t("autoApproval.turnOn")}
           </button>
         )}
       </div>
       {suspended && (
         <p className="warning-text" role="status" data-testid="auto-approval-suspended">
-          {`Suspended: ${suspended}.`}
+          {t("autoApproval.suspended", { reason: suspended })}
         </p>
       )}
       {on && experiment.auto_approval && <p className="hint">{ruleIn(experiment.auto_approval)}</p>}

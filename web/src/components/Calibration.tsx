@@ -1,5 +1,8 @@
 // How well the critic's predictions were borne out: its reliability curve, from what it predicted before each click.
+
 import * as http from "../http";
+import { t } from "../i18n";
+import { decimal, signed } from "../i18n/numbers";
 import { useLatest } from "../useLatest";
 import type { Calibration, Experiment } from "../wire";
 
@@ -15,17 +18,10 @@ function clamped(value: number): number {
   return Math.max(-1, Math.min(1, value));
 }
 
-/** Without a sign at 0, with a true minus. */
-export function signed(value: number, digits = 2): string {
-  const text = Math.abs(value).toFixed(digits);
-  if (Number(text) === 0) return text;
-  return value < 0 ? `−${text}` : `+${text}`;
-}
-
 function Plot({ bins, labels }: { bins: Calibration["bins"]; labels: number }) {
   const most = Math.max(...bins.map((bin) => bin.count));
   return (
-    <svg viewBox={`0 0 ${SIZE} ${SIZE}`} role="img" aria-label={`Reliability curve over ${labels} labels`}>
+    <svg viewBox={`0 0 ${SIZE} ${SIZE}`} role="img" aria-label={t("calibration.curve", { count: labels })}>
       {TICKS.map((tick) => (
         <g key={tick} className="axis">
           <path d={`M${across(tick)} ${up(-1)}V${up(1)}M${across(-1)} ${up(tick)}H${across(1)}`} />
@@ -42,15 +38,21 @@ function Plot({ bins, labels }: { bins: Calibration["bins"]; labels: number }) {
         <g key={bin.low} className="bin">
           <path d={`M${across(bin.predicted)} ${up(bin.predicted)}V${up(bin.label)}`} />
           <circle cx={across(bin.predicted)} cy={up(bin.label)} r={2.5 + 5 * Math.sqrt(bin.count / most)}>
-            <title>{`predicted ${signed(bin.predicted)}, labels ${signed(bin.label)} (${bin.count})`}</title>
+            <title>
+              {t("calibration.bin", {
+                predicted: signed(bin.predicted),
+                label: signed(bin.label),
+                count: bin.count,
+              })}
+            </title>
           </circle>
         </g>
       ))}
       <text className="name" x={(across(-1) + across(1)) / 2} y={SIZE - 4} textAnchor="middle">
-        predicted feedback
+        {t("calibration.across")}
       </text>
       <text className="name" x={9} y={up(0)} textAnchor="middle" transform={`rotate(-90 9 ${up(0)})`}>
-        mean label
+        {t("calibration.up")}
       </text>
     </svg>
   );
@@ -60,12 +62,12 @@ function Plot({ bins, labels }: { bins: Calibration["bins"]; labels: number }) {
 function Figures({ bins }: { bins: Calibration["bins"] }) {
   return (
     <table className="sr-only">
-      <caption>Predicted feedback against labels</caption>
+      <caption>{t("calibration.caption")}</caption>
       <thead>
         <tr>
-          <th scope="col">Predicted</th>
-          <th scope="col">Mean label</th>
-          <th scope="col">Labels</th>
+          <th scope="col">{t("calibration.predicted")}</th>
+          <th scope="col">{t("calibration.mean")}</th>
+          <th scope="col">{t("calibration.labels")}</th>
         </tr>
       </thead>
       <tbody>
@@ -83,25 +85,24 @@ function Figures({ bins }: { bins: Calibration["bins"] }) {
 
 export function CalibrationCard({ told }: { told: Calibration | null }) {
   return (
-    <section className="card" aria-label="Calibration">
-      <h2>Calibration of the predicted feedback</h2>
+    <section className="card" aria-label={t("calibration.label")}>
+      <h2>{t("calibration.title")}</h2>
       <div className="calibration" data-testid="calibration" data-labels={told?.labels ?? 0}>
         {told && told.error !== null ? (
           <>
             <Plot bins={told.bins} labels={told.labels} />
             <Figures bins={told.bins} />
             <div className="result">
-              <b className="number" data-testid="calibration-error">{`± ${told.error.toFixed(2)}`}</b>
-              <p className="soft">{`mean gap between what was predicted and what was clicked, over the newest ${told.labels} labels`}</p>
-              <p className="hint">
-                On the dashed line, predictions are right on average. Below it, the critic is too hopeful;
-                above it, too gloomy. Larger dots hold more labels.
-              </p>
+              <b className="number" data-testid="calibration-error">{`± ${decimal(told.error)}`}</b>
+              <p className="soft">{t("calibration.error", { labels: told.labels })}</p>
+              <p className="hint">{t("calibration.hint")}</p>
             </div>
           </>
         ) : (
           <p className="empty-chart" data-testid="calibration-empty">
-            {told ? `Needs ${told.needed} labels; there are ${told.labels}.` : "Loading"}
+            {told
+              ? t("calibration.needs", { needed: told.needed, labels: told.labels })
+              : t("common.loading")}
           </p>
         )}
       </div>

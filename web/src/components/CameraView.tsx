@@ -1,6 +1,8 @@
 // One camera: the still picture a proposal is drawn on, and over it the live video while the robot moves.
+
 import { useEffect, useEffectEvent, useLayoutEffect, useRef } from "react";
 import type { FrameSink } from "../frames";
+import { skillName, t } from "../i18n";
 import type { FrameHeader, View } from "../wire";
 import { OverlayDrawing } from "./OverlayDrawing";
 
@@ -63,8 +65,8 @@ export function CameraView(props: CameraViewProps) {
       data-live={live !== null}
       style={{ aspectRatio: `${view.width} / ${view.height}` }}
     >
-      <canvas ref={still} role="img" aria-label={`Still picture of the ${name} camera`} />
-      <canvas ref={video} className="live" role="img" aria-label={`Live video of the ${name} camera`} />
+      <canvas ref={still} role="img" aria-label={t("camera.still", { camera: name })} />
+      <canvas ref={video} className="live" role="img" aria-label={t("camera.video", { camera: name })} />
       {props.overlay && (
         <OverlayDrawing
           overlay={view.overlay}
@@ -73,12 +75,12 @@ export function CameraView(props: CameraViewProps) {
           judged={props.judged}
         />
       )}
-      {props.skill && <span className="chip skill">{props.skill}</span>}
+      {props.skill && <span className="chip skill">{skillName(props.skill)}</span>}
       <span className="chip camera">
         {props.moving && <span className="dot" />}
-        {props.moving ? `${name} · live` : name}
+        {props.moving ? t("camera.live", { camera: name }) : name}
       </span>
-      {props.overlay && !view.overlay.in_view && <span className="chip note">outside this picture</span>}
+      {props.overlay && !view.overlay.in_view && <span className="chip note">{t("camera.outside")}</span>}
     </figure>
   );
 }

@@ -1,19 +1,18 @@
 // The live chart: successes over the number of feedbacks. uPlot is loaded apart, so that the page opens without it.
+
 import { useEffect, useRef, useState } from "react";
 import type uPlot from "uplot";
+import { t } from "../i18n";
 import type { CurvePoint } from "../state";
+import { onThemeChange, themeColor, themeFont } from "../theme";
 
 const HEIGHT = 190;
 
-function color(name: string): string {
-  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-}
-
 function options(width: number): uPlot.Options {
   const axis = {
-    stroke: color("--ink-soft"),
-    font: `11px ${color("--font")}`,
-    grid: { stroke: color("--edge"), width: 1 },
+    stroke: themeColor("--ink-soft"),
+    font: `11px ${themeFont()}`,
+    grid: { stroke: themeColor("--edge"), width: 1 },
     ticks: { show: false },
     // counts: no fractions of a click
     incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10_000],
@@ -32,7 +31,10 @@ function options(width: number): uPlot.Options {
       { ...axis, grid: { show: false }, size: 26 },
       { ...axis, size: 34 },
     ],
-    series: [{}, { stroke: color("--good"), fill: color("--good-soft"), width: 2, points: { show: false } }],
+    series: [
+      {},
+      { stroke: themeColor("--good"), fill: themeColor("--good-soft"), width: 2, points: { show: false } },
+    ],
   };
 }
 
@@ -73,14 +75,13 @@ function Chart({ curve }: { curve: CurvePoint[] }) {
       chart.current = new library(options(element.clientWidth), dataOf(newest.current), element);
     };
     build();
-    const scheme = matchMedia("(prefers-color-scheme: light)");
-    scheme.addEventListener("change", build);
+    const unwatch = onThemeChange(build);
     const resized = new ResizeObserver(() =>
       chart.current?.setSize({ width: element.clientWidth, height: HEIGHT }),
     );
     resized.observe(element);
     return () => {
-      scheme.removeEventListener("change", build);
+      unwatch();
       resized.disconnect();
       chart.current?.destroy();
       chart.current = null;
@@ -92,22 +93,14 @@ function Chart({ curve }: { curve: CurvePoint[] }) {
 export function Curve({ curve }: { curve: CurvePoint[] }) {
   const last = curve.at(-1);
   const drawable = curve.length > 1;
-  const summary = last ? `${last.successes} successes after ${last.feedback} feedback` : "no feedback yet";
+  const summary = last
+    ? t("curve.summary", { successes: last.successes, feedback: last.feedback })
+    : t("curve.none");
   return (
-    <section className="card" aria-label="Successes">
-      <h2>Successes over feedback</h2>
-      <div
-        className="curve"
-        role="img"
-        aria-label={`Chart: ${summary}`}
-        data-testid="curve"
-        data-points={curve.length}
-      >
-        {drawable ? (
-          <Chart curve={curve} />
-        ) : (
-          <p className="empty-chart">The curve starts with your first clicks.</p>
-        )}
+    <section className="card" aria-label={t("curve.label")}>
+      <h2>{t("curve.title")}</h2>
+      <div className="curve" role="img" aria-label={summary} data-testid="curve" data-points={curve.length}>
+        {drawable ? <Chart curve={curve} /> : <p className="empty-chart">{t("curve.empty")}</p>}
       </div>
     </section>
   );

@@ -1,7 +1,9 @@
 // A dialog in a layer beside the page. The page behind it is inert; the emergency stop, in a layer above, is not:
 // that is why this isn't the browser's own modal dialog, which would make the stop unreachable.
+
 import { type ReactNode, useEffect, useEffectEvent, useId, useRef } from "react";
 import { createPortal } from "react-dom";
+import { t } from "../i18n";
 
 export function Dialog(props: { title: string; onClose: () => void; children: ReactNode }) {
   const titleId = useId();
@@ -56,7 +58,7 @@ export function Confirm({ question, onClose }: { question: Question; onClose: ()
       <p className="soft">{question.text}</p>
       <div className="actions">
         <button type="button" className="button" data-first onClick={onClose} data-testid="cancel">
-          Cancel
+          {t("common.cancel")}
         </button>
         <button
           type="button"

@@ -1,3 +1,5 @@
+import { t } from "../i18n";
+import { percent } from "../i18n/numbers";
 import type { Evaluation } from "../wire";
 
 export interface EvaluationProps {
@@ -14,19 +16,27 @@ export function EvaluationPanel({ evaluation, done, running, obstacle, onEvaluat
   const going = running && evaluation !== null && !evaluation.ended_at;
   const share = evaluation ? (100 * done) / Math.max(1, evaluation.rollouts) : 0;
   return (
-    <section className="card" aria-label="Evaluation">
-      <h2>Evaluation</h2>
+    <section className="card" aria-label={t("evaluation.title")}>
+      <h2>{t("evaluation.title")}</h2>
       <div className="evaluation">
         <div className="result" data-testid="evaluation">
           {evaluation?.ended_at ? (
             <>
-              <b className="number">{`${Math.round(100 * evaluation.success_rate)} % success`}</b>
-              <div className="soft">{`${evaluation.successes} of ${evaluation.rollouts}, after ${evaluation.feedback} feedback`}</div>
+              <b className="number">{t("evaluation.rate", { rate: percent(evaluation.success_rate) })}</b>
+              <div className="soft">
+                {t("evaluation.result", {
+                  successes: evaluation.successes,
+                  rollouts: evaluation.rollouts,
+                  feedback: evaluation.feedback,
+                })}
+              </div>
             </>
           ) : going ? (
-            <span className="number">{`${done} of ${evaluation.rollouts} rollouts`}</span>
+            <span className="number">
+              {t("evaluation.progress", { done, rollouts: evaluation.rollouts })}
+            </span>
           ) : (
-            <span className="soft">Not evaluated yet</span>
+            <span className="soft">{t("evaluation.none")}</span>
           )}
         </div>
         {!going && (
@@ -37,14 +47,14 @@ export function EvaluationPanel({ evaluation, done, running, obstacle, onEvaluat
             disabled={obstacle !== null}
             onClick={onEvaluate}
           >
-            Evaluate
+            {t("evaluation.evaluate")}
           </button>
         )}
         {going && (
           <div
             className="track"
             role="progressbar"
-            aria-label="Rollouts"
+            aria-label={t("evaluation.rollouts")}
             aria-valuemin={0}
             aria-valuemax={evaluation.rollouts}
             aria-valuenow={done}

@@ -1,5 +1,6 @@
 import { useState } from "react";
 import * as http from "../http";
+import { t } from "../i18n";
 import { Link } from "../router";
 import type { Experiment, Problem, Verb } from "../wire";
 import { goodShare } from "./Counters";
@@ -38,19 +39,19 @@ export function ExperimentRow({ experiment, onChanged, onProblem, onAsk }: Exper
           </h2>
           <StatePill experiment={experiment} />
         </div>
-        <p className="facts">{`${experiment.task} · ${experiment.adapter} · ${experiment.algorithm}${experiment.teacher ? ` · ${experiment.teacher} teacher` : ""}`}</p>
+        <p className="facts">{`${experiment.task} · ${experiment.adapter} · ${experiment.algorithm}${experiment.teacher ? ` · ${t("create.teacher", { teacher: experiment.teacher })}` : ""}`}</p>
         {experiment.failure && <p className="error">{experiment.failure}</p>}
       </div>
       <dl className="figure">
-        <dt>Feedback</dt>
+        <dt>{t("counters.feedback")}</dt>
         <dd>{counters.feedback}</dd>
       </dl>
       <dl className="figure">
-        <dt>Good share</dt>
+        <dt>{t("counters.goodShare")}</dt>
         <dd>{goodShare(counters)}</dd>
       </dl>
       <dl className="figure">
-        <dt>Successes</dt>
+        <dt>{t("counters.successes")}</dt>
         <dd>{counters.successes}</dd>
       </dl>
       <Verbs

@@ -1,3 +1,4 @@
+import { t } from "../i18n";
 import type { TrainerState } from "../state";
 import type { Question } from "./Dialog";
 
@@ -14,17 +15,16 @@ export function HaltBanner({ state, onAsk, onRearm }: HaltBannerProps) {
     return (
       <div className="banner" role="alert" data-testid="stop-unconfirmed">
         <div>
-          <b>The stop isn’t confirmed.</b> The service doesn’t answer; this page keeps asking. If the robot
-          moves, use its own emergency stop.
+          <b>{t("halt.unconfirmed")}</b> {t("halt.unconfirmedWhat")}
         </div>
       </div>
     );
   if (!halted) return null;
   const ask = () =>
     onAsk({
-      title: "Re-arm the robot?",
-      text: "Look at the robot first: nobody within its reach, nothing jammed. Re-arming moves nothing by itself, but approved skills can run again.",
-      yes: "Re-arm",
+      title: t("halt.ask"),
+      text: t("halt.asked"),
+      yes: t("halt.rearm"),
       danger: true,
       testId: "rearm-confirm",
       act: onRearm,
@@ -32,10 +32,10 @@ export function HaltBanner({ state, onAsk, onRearm }: HaltBannerProps) {
   return (
     <div className="banner" role="alert" data-testid="halted">
       <div>
-        <b>Emergency stop.</b> Nothing moves until you re-arm.
+        <b>{t("halt.stopped")}</b> {t("halt.nothingMoves")}
       </div>
       <button type="button" className="button danger" data-testid="rearm" onClick={ask}>
-        Re-arm…
+        {t("halt.rearmAsk")}
       </button>
     </div>
   );

@@ -1,27 +1,30 @@
 import type { ReactNode } from "react";
+import { t } from "../i18n";
 import { Link } from "../router";
 import { Sprout } from "./icons";
+import { Preferences } from "./Preferences";
 
 /** The bar at the top; `back` leads to the experiments, `stop` keeps room for the emergency stop. */
 export function Header(props: { back?: boolean; stop?: boolean; children?: ReactNode }) {
   return (
     <header className={props.stop ? "header with-stop" : "header"}>
-      <Link to="/" className="brand" label="SEED, all experiments">
+      <Link to="/" className="brand" label={t("header.brand")}>
         <Sprout />
         <span>SEED</span>
       </Link>
       {props.back && (
         <Link to="/" className="crumb">
-          Experiments
+          {t("header.experiments")}
         </Link>
       )}
       {!props.stop && (
         <Link to="/studies" className="crumb">
-          Studies
+          {t("header.studies")}
         </Link>
       )}
       <span className="spring" />
       {props.children}
+      <Preferences />
     </header>
   );
 }

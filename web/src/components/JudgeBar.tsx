@@ -1,17 +1,19 @@
-// Good, Neutral, Bad, and that nothing can be told from the view: as buttons and as keys. One press is one click for the proposal that is drawn, never for the next.
+// Good, Neutral, Bad, and that nothing can be told from the view: as buttons and as keys. One press is one click for the
+// proposal that is drawn, never for the next.
+
 import { type KeyboardEvent as ReactKeyboardEvent, useEffect, useEffectEvent } from "react";
+import { t } from "../i18n";
 import type { Value } from "../wire";
 import { dialogOpen } from "./Dialog";
 import { Cross, Dash, Eye, Tick } from "./icons";
 
 // In the order of the arrow keys, from left to right.
 const CHOICES = [
-  { value: -1, name: "Bad", testId: "bad", arrow: "←", number: "3", key: "ArrowLeft", Icon: Cross },
-  { value: 0, name: "Neutral", testId: "neutral", arrow: "↓", number: "2", key: "ArrowDown", Icon: Dash },
-  { value: 1, name: "Good", testId: "good", arrow: "→", number: "1", key: "ArrowRight", Icon: Tick },
+  { value: -1, testId: "bad", arrow: "←", number: "3", key: "ArrowLeft", Icon: Cross },
+  { value: 0, testId: "neutral", arrow: "↓", number: "2", key: "ArrowDown", Icon: Dash },
+  { value: 1, testId: "good", arrow: "→", number: "1", key: "ArrowRight", Icon: Tick },
   {
     value: "cant_tell",
-    name: "Can’t tell",
     testId: "cant-tell",
     arrow: "↑",
     number: "4",
@@ -19,6 +21,13 @@ const CHOICES = [
     Icon: Eye,
   },
 ] as const;
+
+const WORDS = {
+  bad: "judge.bad",
+  neutral: "judge.neutral",
+  good: "judge.good",
+  "cant-tell": "judge.cantTell",
+} as const;
 
 export interface JudgeBarProps {
   /** Whether a click would count now. */
@@ -69,8 +78,8 @@ function noRepeat(event: ReactKeyboardEvent): void {
 export function JudgeBar(props: JudgeBarProps) {
   useJudgeKeys(props);
   return (
-    <fieldset className="judge" aria-label="Judge this proposal" data-idle={!props.ready}>
-      {CHOICES.map(({ value, name, testId, arrow, number, key, Icon }) => (
+    <fieldset className="judge" aria-label={t("judge.label")} data-idle={!props.ready}>
+      {CHOICES.map(({ value, testId, arrow, number, key, Icon }) => (
         <button
           key={testId}
           type="button"
@@ -83,7 +92,7 @@ export function JudgeBar(props: JudgeBarProps) {
           onClick={(event) => props.onJudge(value, event.timeStamp)}
         >
           <Icon />
-          {name}
+          {t(WORDS[testId])}
           <span className="keys" aria-hidden="true">
             <span className="key">{arrow}</span>
             <span className="key">{number}</span>

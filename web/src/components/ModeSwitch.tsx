@@ -1,32 +1,26 @@
+import { t } from "../i18n";
 import type { Mode } from "../wire";
 
-const MODES: { mode: Mode; name: string }[] = [
-  { mode: "propose_only", name: "Propose only" },
-  { mode: "execute_approved", name: "Execute approved" },
-];
+const MODES: Mode[] = ["propose_only", "execute_approved"];
 
 export function ModeSwitch({ mode, onChange }: { mode: Mode; onChange: (mode: Mode) => void }) {
   return (
-    <section className="card" aria-label="Mode">
-      <fieldset className="segments" aria-label="What happens with an approved skill">
+    <section className="card" aria-label={t("mode.label")}>
+      <fieldset className="segments" aria-label={t("mode.what")}>
         {MODES.map((each) => (
-          <label key={each.mode}>
+          <label key={each}>
             <input
               type="radio"
               name="mode"
-              checked={mode === each.mode}
-              onChange={() => onChange(each.mode)}
-              data-testid={`mode-${each.mode}`}
+              checked={mode === each}
+              onChange={() => onChange(each)}
+              data-testid={`mode-${each}`}
             />
-            {each.name}
+            {t(`mode.${each}`)}
           </label>
         ))}
       </fieldset>
-      <p className="hint">
-        {mode === "execute_approved"
-          ? "A proposal you call good is run on the robot."
-          : "Your clicks train; nothing moves."}
-      </p>
+      <p className="hint">{t(`mode.${mode}_what`)}</p>
     </section>
   );
 }

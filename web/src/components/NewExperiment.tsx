@@ -1,6 +1,8 @@
 // The form of a new experiment. The service validates; its field errors are shown at their fields.
+
 import { type FormEvent, useEffect, useState } from "react";
 import * as http from "../http";
+import { t } from "../i18n";
 import { navigate } from "../router";
 import type { ExperimentCreate, Mode, Problem } from "../wire";
 import { Dialog } from "./Dialog";
@@ -18,7 +20,7 @@ function firstDraft(catalogue: http.Catalogue, count: number): Draft {
   const algorithm = catalogue.algorithms[0];
   const fitting = catalogue.adapters.filter((each) => each.tasks.includes(task?.name ?? ""));
   return {
-    name: `${task?.title ?? "Experiment"} ${count + 1}`,
+    name: t("create.nameOf", { task: task?.title ?? t("create.untitled"), number: count + 1 }),
     task: task?.name ?? "",
     adapter: (fitting.find((each) => each.name === "robosuite") ?? fitting[0])?.name ?? "",
     algorithm: algorithm?.name ?? "",
@@ -65,11 +67,11 @@ function useCatalogue(): { catalogue: http.Catalogue | null; problem: Problem | 
 export function NewExperiment({ count, onClose }: { count: number; onClose: () => void }) {
   const { catalogue, problem } = useCatalogue();
   return (
-    <Dialog title="New experiment" onClose={onClose}>
+    <Dialog title={t("create.title")} onClose={onClose}>
       {problem && <p className="error" role="alert">{`${problem.detail} ${problem.remedy}`}</p>}
       {!catalogue && !problem && (
         <p className="soft" role="status">
-          Loading
+          {t("common.loading")}
         </p>
       )}
       {catalogue ? (
@@ -77,7 +79,7 @@ export function NewExperiment({ count, onClose }: { count: number; onClose: () =
       ) : (
         <div className="actions">
           <button type="button" className="button" onClick={onClose}>
-            Cancel
+            {t("common.cancel")}
           </button>
         </div>
       )}
@@ -119,14 +121,14 @@ function NewForm({
     <form className="form" onSubmit={submit} noValidate>
       <Field
         wide
-        label="Name"
+        label={t("create.name")}
         name="name"
         value={draft.name}
         error={error("name")}
         onChange={(name) => set({ name })}
       />
       <Choice
-        label="Task"
+        label={t("create.task")}
         name="task"
         value={draft.task}
         options={catalogue.tasks.map((each) => ({ value: each.name, label: each.title }))}
@@ -134,7 +136,7 @@ function NewForm({
         onChange={(task) => set({ task })}
       />
       <Choice
-        label="Robot"
+        label={t("create.adapter")}
         name="adapter"
         value={draft.adapter}
         options={names(adapters)}
@@ -142,7 +144,7 @@ function NewForm({
         onChange={(adapter) => set({ adapter })}
       />
       <Choice
-        label="Algorithm"
+        label={t("create.algorithm")}
         name="algorithm"
         value={draft.algorithm}
         options={names(catalogue.algorithms)}
@@ -150,26 +152,32 @@ function NewForm({
         onChange={(algorithm) => set({ algorithm, preset: "" })}
       />
       <Choice
-        label="Preset"
+        label={t("create.preset")}
         name="preset"
         value={draft.preset}
-        options={[{ value: "", label: "default" }, ...presets.map((value) => ({ value, label: value }))]}
+        options={[
+          { value: "", label: t("create.presetDefault") },
+          ...presets.map((value) => ({ value, label: value })),
+        ]}
         error={error("preset")}
         onChange={(preset) => set({ preset })}
       />
       <Choice
-        label="Who judges"
+        label={t("create.judge")}
         name="teacher"
         value={draft.teacher}
         options={[
-          { value: "", label: "you" },
-          ...catalogue.teachers.map(({ name }) => ({ value: name, label: `${name} teacher` })),
+          { value: "", label: t("create.you") },
+          ...catalogue.teachers.map(({ name }) => ({
+            value: name,
+            label: t("create.teacher", { teacher: name }),
+          })),
         ]}
         error={error("teacher")}
         onChange={(teacher) => set({ teacher })}
       />
       <Field
-        label="Seed"
+        label={t("create.seed")}
         name="seed"
         value={draft.seed}
         numeric
@@ -177,7 +185,7 @@ function NewForm({
         onChange={(seed) => set({ seed })}
       />
       <Field
-        label="Robots at once"
+        label={t("create.robots")}
         name="num_envs"
         value={draft.num_envs}
         numeric
@@ -186,12 +194,12 @@ function NewForm({
       />
       <Choice
         wide
-        label="Approved skills"
+        label={t("create.approved")}
         name="mode"
         value={draft.mode ?? "execute_approved"}
         options={[
-          { value: "execute_approved", label: "are executed" },
-          { value: "propose_only", label: "only train, nothing moves" },
+          { value: "execute_approved", label: t("create.executed") },
+          { value: "propose_only", label: t("create.onlyTrain") },
         ]}
         error={error("mode")}
         onChange={(mode) => set({ mode: mode as Mode })}
@@ -201,10 +209,10 @@ function NewForm({
       )}
       <div className="actions wide">
         <button type="button" className="button" onClick={onClose}>
-          Cancel
+          {t("common.cancel")}
         </button>
         <button type="submit" className="button primary" disabled={busy} data-testid="create">
-          Create
+          {t("create.submit")}
         </button>
       </div>
     </form>

@@ -1,4 +1,5 @@
 import { useEffect } from "react";
+import { t } from "../i18n";
 import type { Notice } from "../state";
 
 const READ_MS = { info: 6000, good: 6000, warning: 12_000 };
@@ -6,7 +7,7 @@ const READ_MS = { info: 6000, good: 6000, warning: 12_000 };
 /** Short news in a corner; errors stay until they are dismissed. */
 export function Notices({ notices, onDismiss }: { notices: Notice[]; onDismiss: (id: number) => void }) {
   return (
-    <section className="notices" aria-live="polite" aria-label="News" data-testid="notices">
+    <section className="notices" aria-live="polite" aria-label={t("notice.label")} data-testid="notices">
       {notices.map((notice) => (
         <Toast key={notice.id} notice={notice} onDismiss={onDismiss} />
       ))}
@@ -23,7 +24,7 @@ function Toast({ notice, onDismiss }: { notice: Notice; onDismiss: (id: number) 
   return (
     <div className="notice" data-tone={notice.tone}>
       <p>{notice.text}</p>
-      <button type="button" aria-label="Dismiss" onClick={() => onDismiss(notice.id)}>
+      <button type="button" aria-label={t("common.dismiss")} onClick={() => onDismiss(notice.id)}>
         ×
       </button>
     </div>

@@ -1,6 +1,8 @@
 // A proposal drawn over one picture, in that picture's own pixels. Every mark has a dark and a light halo, so that it
 // can be told from any background.
+
 import type { ReactNode } from "react";
+import { t } from "../i18n";
 import type { Overlay } from "../wire";
 
 type Point = [number, number];
@@ -49,11 +51,11 @@ export function OverlayDrawing(props: { overlay: Overlay; width: number; height:
       data-judged={props.judged}
       viewBox={`0 0 ${props.width} ${props.height}`}
       role="img"
-      aria-label="The proposed skill, drawn on the picture"
+      aria-label={t("overlay.label")}
     >
       {overlay.ring && (
         <Haloed
-          title="Where the line meets the table"
+          title={t("overlay.ring")}
           testId="ring"
           color="var(--overlay-dot)"
           width={2}
@@ -62,7 +64,7 @@ export function OverlayDrawing(props: { overlay: Overlay; width: number; height:
       )}
       {line && (
         <Haloed
-          title={overlay.arrow ? "Direction and length of the push" : "Height above the table"}
+          title={overlay.arrow ? t("overlay.push") : t("overlay.height")}
           testId="line"
           color="var(--overlay-dot)"
           width={2.5}
@@ -71,7 +73,7 @@ export function OverlayDrawing(props: { overlay: Overlay; width: number; height:
       )}
       {bar && (
         <Haloed
-          title="The gripper closes along this bar"
+          title={t("overlay.bar")}
           testId="bar"
           color="var(--overlay-bar)"
           width={4}
@@ -80,7 +82,7 @@ export function OverlayDrawing(props: { overlay: Overlay; width: number; height:
       )}
       {overlay.dot && (
         <g data-testid="dot">
-          <title>Where the skill acts</title>
+          <title>{t("overlay.dot")}</title>
           <circle cx={overlay.dot[0]} cy={overlay.dot[1]} r={9} fill="var(--overlay-dark)" />
           <circle cx={overlay.dot[0]} cy={overlay.dot[1]} r={7.8} fill="var(--overlay-light)" />
           <circle cx={overlay.dot[0]} cy={overlay.dot[1]} r={6} fill="var(--overlay-dot)" />

@@ -1,3 +1,4 @@
+import { t } from "../i18n";
 import { Link } from "../router";
 import type { Problem } from "../wire";
 import { Header } from "./Header";
@@ -12,7 +13,7 @@ export function ProblemCard({ problem }: { problem: Problem }) {
           <h1>{problem.title}</h1>
           <p>{`${problem.detail} ${problem.remedy}`}</p>
           <Link to="/" className="button primary">
-            All experiments
+            {t("common.allExperiments")}
           </Link>
         </div>
       </main>

@@ -1,4 +1,5 @@
 // Which of several robots is shown: the one that is to be judged next, or one that someone keeps an eye on.
+import { t } from "../i18n";
 import { type Judged, queueOf, type RobotState, waits } from "../robots";
 
 export interface RobotPickerProps {
@@ -14,23 +15,21 @@ function doing(robot: RobotState, judged: Judged): "moving" | "waiting" | "busy"
   return waits(robot, judged) ? "waiting" : "busy";
 }
 
-const WORDS = { moving: "moves", waiting: "its proposal waits", busy: "busy" };
-
 export function RobotPicker({ robots, judged, chosen, shown, onChoose }: RobotPickerProps) {
   const waiting = queueOf(robots, judged).length;
   return (
     <div className="robots">
-      <fieldset className="segments" aria-label="Which robot is shown" data-testid="robots">
+      <fieldset className="segments" aria-label={t("robots.label")} data-testid="robots">
         <button type="button" aria-pressed={chosen === null} onClick={() => onChoose(null)}>
-          In turn
+          {t("robots.inTurn")}
         </button>
         {robots.map((robot, index) => (
           <button
             key={index}
             type="button"
             aria-pressed={chosen === index}
-            aria-label={`Robot ${index + 1}`}
-            title={`Robot ${index + 1}: ${WORDS[doing(robot, judged)]}`}
+            aria-label={t("robots.one", { number: index + 1 })}
+            title={t("robots.state", { number: index + 1, doing: t(`robots.${doing(robot, judged)}`) })}
             data-testid={`robot-${index + 1}`}
             data-doing={doing(robot, judged)}
             onClick={() => onChoose(index)}
@@ -41,8 +40,8 @@ export function RobotPicker({ robots, judged, chosen, shown, onChoose }: RobotPi
         ))}
       </fieldset>
       <p data-testid="queue">
-        <b>{`Robot ${shown + 1} of ${robots.length}`}</b>
-        <span className="soft">{waiting === 1 ? "1 proposal waits" : `${waiting} proposals wait`}</span>
+        <b>{t("robots.oneOf", { number: shown + 1, count: robots.length })}</b>
+        <span className="soft">{t("robots.wait", { count: waiting })}</span>
       </p>
     </div>
   );

@@ -1,6 +1,8 @@
 // What stands beside the views: counters, what the agent thinks, mode, evaluation.
+
 import { useEffect, useState } from "react";
 import * as http from "../http";
+import { t } from "../i18n";
 import type { Session } from "../session";
 import type { TrainerState } from "../state";
 import type { Experiment, Mode, Proposal } from "../wire";
@@ -30,11 +32,9 @@ function useSimulated(adapter: string): boolean {
 }
 
 function obstacleTo(experiment: Experiment): string | null {
-  if (experiment.halted) return "Re-arm first.";
-  if (experiment.lifecycle === "running") return "Pause first: the rollouts use the same simulator.";
-  return ["created", "paused", "finished"].includes(experiment.lifecycle)
-    ? null
-    : "Not possible in this state.";
+  if (experiment.halted) return t("evaluation.halted");
+  if (experiment.lifecycle === "running") return t("evaluation.running");
+  return ["created", "paused", "finished"].includes(experiment.lifecycle) ? null : t("evaluation.impossible");
 }
 
 export interface SidePanelProps {
@@ -51,15 +51,15 @@ export function SidePanel({ state, experiment, proposal, session, onAsk }: SideP
     if (mode === "propose_only") void session.setMode(mode);
     else
       onAsk({
-        title: "Let approved skills move the robot?",
-        text: "From now on every proposal that is judged good runs on the robot at once. Check that nobody is within its reach.",
-        yes: "Execute approved",
+        title: t("mode.ask"),
+        text: t("mode.asked"),
+        yes: t("mode.execute_approved"),
         testId: "mode-confirm",
         act: () => void session.setMode(mode),
       });
   };
   return (
-    <aside className="side" aria-label="About this experiment">
+    <aside className="side" aria-label={t("title.side")}>
       <Counters counters={experiment.counters} />
       <Thought proposal={proposal} />
       <ModeSwitch mode={experiment.mode} onChange={changeMode} />

@@ -1,3 +1,4 @@
+import { t } from "../i18n";
 import type { Experiment } from "../wire";
 
 /** Where an experiment is; an emergency stop outshines it. */
@@ -6,7 +7,7 @@ export function StatePill({ experiment }: { experiment: Experiment }) {
   return (
     <span className="pill" data-state={state} data-testid="lifecycle">
       <span className="dot" />
-      {state}
+      {t(`lifecycle.${state}`)}
     </span>
   );
 }

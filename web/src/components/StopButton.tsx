@@ -1,6 +1,8 @@
 // The emergency stop: a fixed button above everything, and Esc twice from any focus.
+
 import { useEffect, useEffectEvent } from "react";
 import { createPortal } from "react-dom";
+import { t } from "../i18n";
 import { Octagon } from "./icons";
 
 const TWICE_WITHIN_MS = 600;
@@ -23,18 +25,18 @@ export function StopButton({ stopping, onStop }: { stopping: boolean; onStop: ()
     return () => window.removeEventListener("keydown", onKey, true);
   }, []);
   return createPortal(
-    <aside aria-label="Emergency stop">
+    <aside aria-label={t("halt.label")}>
       <button
         type="button"
         className="stop"
         data-testid="halt"
         onClick={onStop}
-        aria-label="Emergency stop"
+        aria-label={t("halt.label")}
         aria-keyshortcuts="Escape Escape"
-        title="Emergency stop: press Esc twice"
+        title={t("halt.title")}
       >
         <Octagon />
-        {stopping ? "STOPPING" : "STOP"}
+        {stopping ? t("halt.stopping") : t("halt.stop")}
         {!stopping && (
           <span className="key" aria-hidden="true">
             Esc Esc

@@ -1,23 +1,23 @@
 // One scenario's curves: ours as lines with their standard errors as thin ones, the paper's dashed behind them.
+
 import { useEffect, useRef } from "react";
 import type uPlot from "uplot";
+import { t } from "../i18n";
+import { decimal } from "../i18n/numbers";
 import { type ChartLine, chartData, isLogarithmic, linesOf } from "../studyLines";
+import { onThemeChange, themeColor, themeFont } from "../theme";
 import type { StudyScenario } from "../wire";
 import { useLibrary } from "./Curve";
 
 const HEIGHT = 280;
-const LABELS = { low_level_steps: "low-level steps", decisions: "feedbacks (decisions)" };
-
-function color(name: string): string {
-  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-}
+const LABELS = { low_level_steps: "studies.axisSteps", decisions: "studies.axisDecisions" } as const;
 
 function options(width: number, scenario: StudyScenario, lines: ChartLine[]): uPlot.Options {
   const axis = {
-    stroke: color("--ink-soft"),
-    font: `11px ${color("--font")}`,
-    labelFont: `12px ${color("--font")}`,
-    grid: { stroke: color("--edge"), width: 1 },
+    stroke: themeColor("--ink-soft"),
+    font: `11px ${themeFont()}`,
+    labelFont: `12px ${themeFont()}`,
+    grid: { stroke: themeColor("--edge"), width: 1 },
     ticks: { show: false },
     labelSize: 18,
   };
@@ -34,13 +34,13 @@ function options(width: number, scenario: StudyScenario, lines: ChartLine[]): uP
       y: { range: (_u, _low, high) => [0, rate ? 1.04 : Math.max(high * 1.08, 2)] },
     },
     axes: [
-      { ...axis, label: LABELS[scenario.axis], size: 30 },
-      { ...axis, label: rate ? "success rate" : "successes while training", size: 44 },
+      { ...axis, label: t(LABELS[scenario.axis]), size: 30 },
+      { ...axis, label: rate ? t("studies.rate") : t("studies.whileTraining"), size: 44 },
     ],
     series: [
       {},
       ...lines.map((line) => ({
-        stroke: color(`--curve-${line.color}`),
+        stroke: themeColor(`--curve-${line.color}`),
         width: line.kind === "mean" ? 2.5 : 1.5,
         alpha: line.kind === "mean" ? 1 : line.kind === "paper" ? 0.65 : 0.35,
         spanGaps: true,
@@ -64,22 +64,25 @@ export function StudyChart({ scenario }: { scenario: StudyScenario }) {
       chart = new library(options(element.clientWidth, scenario, lines), chartData(lines), element);
     };
     build();
-    const scheme = matchMedia("(prefers-color-scheme: light)");
-    scheme.addEventListener("change", build);
+    const unwatch = onThemeChange(build);
     const resized = new ResizeObserver(() => chart?.setSize({ width: element.clientWidth, height: HEIGHT }));
     resized.observe(element);
     return () => {
-      scheme.removeEventListener("change", build);
+      unwatch();
       resized.disconnect();
       chart?.destroy();
     };
   }, [library, scenario]);
-  const told = scenario.curves.map((curve) => `${curve.title} ${curve.mean.at(-1)?.toFixed(2)}`).join(", ");
+  const told = scenario.curves.map((curve) => `${curve.title} ${decimal(curve.mean.at(-1) ?? 0)}`).join(", ");
   return (
     <div
       className="study-chart"
       role="img"
-      aria-label={`Chart of ${scenario.title}: ${told || "nothing measured yet"}`}
+      aria-label={
+        told
+          ? t("studies.chart", { title: scenario.title, curves: told })
+          : t("studies.chartEmpty", { title: scenario.title })
+      }
       data-testid="study-chart"
       data-curves={scenario.curves.length}
       data-points={Math.max(0, ...scenario.curves.map((curve) => curve.x.length))}

@@ -1,6 +1,7 @@
 // What the agent thinks: the next subgoal, the feedback it expects, how likely each skill was.
+import { skillName, t } from "../i18n";
+import { decimal, percent, signed } from "../i18n/numbers";
 import type { Proposal } from "../wire";
-import { signed } from "./Calibration";
 
 const bound = (value: number) => Math.max(-1, Math.min(1, value));
 const along = (value: number) => 50 + 50 * bound(value);
@@ -11,14 +12,8 @@ function Gauge({ value, uncertainty }: { value: number; uncertainty: number | nu
   const [low, high] = [along(value - (uncertainty ?? 0)), along(value + (uncertainty ?? 0))];
   return (
     <div className="gauge-row">
-      <span className="soft">Expects</span>
-      <meter
-        className="sr-only"
-        aria-label="Predicted feedback, from −1 bad to +1 good"
-        min={-1}
-        max={1}
-        value={bounded}
-      />
+      <span className="soft">{t("agent.expects")}</span>
+      <meter className="sr-only" aria-label={t("agent.meter")} min={-1} max={1} value={bounded} />
       <div className="track centred" aria-hidden="true">
         <i
           data-tone={bounded < 0 ? "bad" : "good"}
@@ -29,8 +24,8 @@ function Gauge({ value, uncertainty }: { value: number; uncertainty: number | nu
       <span className="number">
         <b data-testid="predicted-feedback">{signed(value)}</b>
         {uncertainty !== null && (
-          <span className="soft" data-testid="uncertainty" title="How far the critics disagree">
-            {` ± ${uncertainty.toFixed(2)}`}
+          <span className="soft" data-testid="uncertainty" title={t("agent.uncertainty")}>
+            {` ± ${decimal(uncertainty)}`}
           </span>
         )}
       </span>
@@ -41,42 +36,42 @@ function Gauge({ value, uncertainty }: { value: number; uncertainty: number | nu
 export function Thought({ proposal }: { proposal: Proposal | null }) {
   if (!proposal)
     return (
-      <section className="card" aria-label="Agent">
-        <h2>Agent</h2>
-        <p className="soft">Its expectation shows here with the first proposal.</p>
+      <section className="card" aria-label={t("agent.label")}>
+        <h2>{t("agent.label")}</h2>
+        <p className="soft">{t("agent.empty")}</p>
       </section>
     );
   const skills = Object.entries(proposal.skill_probabilities);
   return (
-    <section className="card" aria-label="Agent">
+    <section className="card" aria-label={t("agent.label")}>
       <div className="thought">
         {proposal.subgoal && (
           <div>
-            <h2>Next</h2>
+            <h2>{t("agent.next")}</h2>
             <p data-testid="subgoal">{proposal.subgoal}</p>
           </div>
         )}
         <div>
           <h2>
-            Predicted feedback <abbr title="The human critic's estimate of your click">Ĥ</abbr>
+            {t("agent.predicted")} <abbr title={t("agent.critic")}>Ĥ</abbr>
           </h2>
           <Gauge value={proposal.predicted_feedback} uncertainty={proposal.uncertainty} />
           {proposal.uncertainty === null && (
             <p className="hint" data-testid="uncertainty-unknown">
-              How sure it is isn't known: that takes two critics or more.
+              {t("agent.uncertaintyUnknown")}
             </p>
           )}
         </div>
         {skills.length > 0 && (
           <div>
-            <h2>Skill probabilities</h2>
+            <h2>{t("agent.skills")}</h2>
             {skills.map(([skill, probability]) => (
               <div className="bar-row" key={skill}>
-                <span className={skill === proposal.skill ? "" : "soft"}>{skill}</span>
+                <span className={skill === proposal.skill ? "" : "soft"}>{skillName(skill)}</span>
                 <div className="track">
                   <i style={{ left: 0, width: `${100 * probability}%` }} />
                 </div>
-                <b>{`${Math.round(100 * probability)} %`}</b>
+                <b>{percent(probability)}</b>
               </div>
             ))}
           </div>

@@ -1,4 +1,5 @@
 import { useState } from "react";
+import { t } from "../i18n";
 import type { Session } from "../session";
 import type { Experiment, Verb } from "../wire";
 import type { Question } from "./Dialog";
@@ -14,9 +15,9 @@ export interface TrainerTitleProps {
 /** What finishing means, asked before it is done. */
 export function finishQuestion(name: string, act: () => void): Question {
   return {
-    title: "Finish this experiment?",
-    text: `“${name}” can't be resumed afterwards. Its data stay, and it can still be evaluated.`,
-    yes: "Finish",
+    title: t("title.finish"),
+    text: t("title.finishWhat", { name }),
+    yes: t("verbs.finish"),
     danger: true,
     testId: "finish-confirm",
     act,
@@ -34,7 +35,7 @@ export function TrainerTitle({ experiment, session, onAsk }: TrainerTitleProps) 
   if (!experiment)
     return (
       <div className="title-row">
-        <h1>Loading</h1>
+        <h1>{t("common.loading")}</h1>
       </div>
     );
   const run = async (verb: Verb) => {
@@ -44,10 +45,12 @@ export function TrainerTitle({ experiment, session, onAsk }: TrainerTitleProps) 
   };
   const facts = [
     experiment.task,
-    experiment.num_envs > 1 ? `${experiment.num_envs} robots on ${experiment.adapter}` : experiment.adapter,
+    experiment.num_envs > 1
+      ? t("title.robotsOn", { count: experiment.num_envs, adapter: experiment.adapter })
+      : experiment.adapter,
     experiment.algorithm,
     experiment.preset,
-    `seed ${experiment.seed}`,
+    t("title.seed", { seed: experiment.seed }),
   ];
   const verbs = (
     <Verbs
@@ -64,8 +67,7 @@ export function TrainerTitle({ experiment, session, onAsk }: TrainerTitleProps) 
       {failed && (
         <div className="banner" role="alert" data-testid="failed">
           <div>
-            <b>This experiment failed.</b>{" "}
-            {sentences(experiment.failure ?? "see the server’s log, then resume")}
+            <b>{t("title.failed")}</b> {sentences(experiment.failure ?? t("title.failedHow"))}
           </div>
           {verbs}
         </div>

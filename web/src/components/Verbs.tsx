@@ -1,9 +1,8 @@
 // The verbs that an experiment's state allows (DESIGN.md section 6).
+import { t } from "../i18n";
 import type { Experiment, Verb } from "../wire";
 
 type Shown = Exclude<Verb, "halt" | "rearm">;
-
-const NAMES: Record<Shown, string> = { start: "Start", pause: "Pause", resume: "Resume", finish: "Finish" };
 
 const ALLOWED: Record<Experiment["lifecycle"], Shown[]> = {
   created: ["start"],
@@ -27,11 +26,11 @@ export function Verbs(props: { experiment: Experiment; busy: boolean; onVerb: (v
             type="button"
             className={moves ? "button primary" : "button"}
             data-testid={verb}
-            aria-label={`${NAMES[verb]} ${experiment.name}`}
+            aria-label={t("verbs.of", { verb: t(`verbs.${verb}`), name: experiment.name })}
             disabled={blocked}
             onClick={() => props.onVerb(verb)}
           >
-            {NAMES[verb]}
+            {t(`verbs.${verb}`)}
           </button>
         );
       })}

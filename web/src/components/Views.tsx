@@ -1,6 +1,8 @@
 // The two camera views of a proposal. Nothing is drawn before all its pictures are decoded; then all of it at once.
+
 import { useEffect, useLayoutEffect, useRef, useSyncExternalStore } from "react";
 import type { FrameSink } from "../frames";
+import { t } from "../i18n";
 import type { ImageStore } from "../images";
 import type { Proposal } from "../wire";
 import { CameraView } from "./CameraView";
@@ -50,7 +52,7 @@ export function Views(props: ViewsProps) {
         {(["left", "right"] as const).map((side) => (
           <figure key={side} className="view" data-testid={`view-${side}`} style={{ aspectRatio: "4 / 3" }}>
             <div className="view-empty">
-              {failed ? "The picture can't be loaded. Trying again." : side === "left" ? props.empty : ""}
+              {failed ? t("camera.noPicture") : side === "left" ? props.empty : ""}
             </div>
           </figure>
         ))}
@@ -80,7 +82,7 @@ export function Views(props: ViewsProps) {
       ))}
       {failed && (
         <p role="alert" className="error">
-          The new picture can’t be loaded. Trying again.
+          {t("camera.noNewPicture")}
         </p>
       )}
     </div>

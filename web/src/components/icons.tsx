@@ -59,3 +59,13 @@ export function Tick() {
     </svg>
   );
 }
+
+export function Sliders() {
+  return (
+    <svg viewBox="0 0 24 24" aria-hidden="true" {...stroke}>
+      <path d="M4 7h9m5 0h2M4 17h2m5 0h9" />
+      <circle cx="15.5" cy="7" r="2.5" />
+      <circle cx="8.5" cy="17" r="2.5" />
+    </svg>
+  );
+}

@@ -1,4 +1,5 @@
 // Every experiment with its state and counters; make, start, pause, resume, finish.
+
 import { useCallback, useEffect, useState } from "react";
 import { Confirm, type Question } from "../components/Dialog";
 import { ExperimentRow } from "../components/ExperimentRow";
@@ -6,6 +7,7 @@ import { Header } from "../components/Header";
 import { Sprout } from "../components/icons";
 import { NewExperiment } from "../components/NewExperiment";
 import * as http from "../http";
+import { t } from "../i18n";
 import type { Experiment, Problem } from "../wire";
 
 const REFRESH_MS = 2500;
@@ -54,13 +56,10 @@ function Empty({ onNew }: { onNew: () => void }) {
   return (
     <div className="empty" data-testid="empty">
       <Sprout />
-      <h2>No experiments yet</h2>
-      <p>
-        An experiment is one task on one robot, trained by your clicks. Make one, start it, and judge what it
-        proposes.
-      </p>
+      <h2>{t("experiments.empty")}</h2>
+      <p>{t("experiments.emptyWhat")}</p>
       <button type="button" className="button primary" onClick={onNew}>
-        New experiment
+        {t("experiments.new")}
       </button>
     </div>
   );
@@ -77,14 +76,14 @@ export function ExperimentsPage() {
       <Header />
       <main className="page narrow">
         <div className="title-row">
-          <h1 className="title-text">Experiments</h1>
+          <h1 className="title-text">{t("experiments.title")}</h1>
           <button
             type="button"
             className="button primary"
             data-testid="new"
             onClick={() => setCreating(true)}
           >
-            New experiment
+            {t("experiments.new")}
           </button>
         </div>
         {wrong && (
@@ -100,12 +99,12 @@ export function ExperimentsPage() {
                 refresh();
               }}
             >
-              Try again
+              {t("common.retry")}
             </button>
           </div>
         )}
         {list.items === null && !list.problem && (
-          <div className="rows" role="status" aria-label="Loading">
+          <div className="rows" role="status" aria-label={t("common.loading")}>
             <div className="skeleton" />
             <div className="skeleton" />
           </div>
@@ -124,7 +123,7 @@ export function ExperimentsPage() {
         </ul>
         {list.more && (
           <button type="button" className="button quiet" onClick={showMore}>
-            Show more
+            {t("common.showMore")}
           </button>
         )}
       </main>

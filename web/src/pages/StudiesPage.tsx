@@ -1,9 +1,12 @@
 // Every study in the data directory, as far as it is; studies are run from the command line.
+
 import { useEffect } from "react";
 import { Header } from "../components/Header";
 import { Sprout } from "../components/icons";
 import { StudyProgress, studyState } from "../components/StudyProgress";
 import * as http from "../http";
+import { t } from "../i18n";
+import { moment } from "../i18n/numbers";
 import { Link } from "../router";
 import { usePolled } from "../usePolled";
 import type { StudySummary } from "../wire";
@@ -14,13 +17,10 @@ function Empty() {
   return (
     <div className="empty" data-testid="no-studies">
       <Sprout />
-      <h2>No studies yet</h2>
-      <p>
-        A study trains several algorithms on several tasks from several seeds, without a browser, and ends in
-        curves beside the paper's. Run one on the machine of this service:
-      </p>
+      <h2>{t("studies.empty")}</h2>
+      <p>{t("studies.emptyWhat")}</p>
       <code className="command">seed study paper-sim --adapter kinematic --seeds 3 --budget 300</code>
-      <p>It appears here as soon as it begins.</p>
+      <p>{t("studies.emptyHow")}</p>
     </div>
   );
 }
@@ -37,19 +37,19 @@ function StudyRow({ study }: { study: StudySummary }) {
         </div>
         <p className="facts">
           {study.problem ??
-            `${study.study} · ${study.adapter} · ${study.created_at ? new Date(study.created_at).toLocaleString() : ""}`}
+            `${study.study} · ${study.adapter} · ${study.created_at ? moment(study.created_at) : ""}`}
         </p>
       </div>
       <dl className="figure">
-        <dt>Done</dt>
+        <dt>{t("studies.done")}</dt>
         <dd>{`${Math.floor(100 * study.done)} %`}</dd>
       </dl>
       <dl className="figure">
-        <dt>Runs</dt>
+        <dt>{t("studies.runs")}</dt>
         <dd>{`${study.finished}/${study.runs}`}</dd>
       </dl>
       <dl className="figure">
-        <dt>Failed</dt>
+        <dt>{t("studies.failed")}</dt>
         <dd>{study.failed}</dd>
       </dl>
     </li>
@@ -59,14 +59,14 @@ function StudyRow({ study }: { study: StudySummary }) {
 export function StudiesPage() {
   const { value, problem, refresh } = usePolled(http.studies, REFRESH_MS);
   useEffect(() => {
-    document.title = "Studies · SEED";
+    document.title = `${t("studies.title")} · SEED`;
   }, []);
   return (
     <>
       <Header back />
       <main className="page narrow">
         <div className="title-row">
-          <h1 className="title-text">Studies</h1>
+          <h1 className="title-text">{t("studies.title")}</h1>
         </div>
         {problem && (
           <div className="banner" role="alert">
@@ -74,12 +74,12 @@ export function StudiesPage() {
               <b>{problem.detail}</b> {problem.remedy}
             </div>
             <button type="button" className="button" onClick={refresh}>
-              Try again
+              {t("common.retry")}
             </button>
           </div>
         )}
         {value === null && !problem && (
-          <div className="rows" role="status" aria-label="Loading">
+          <div className="rows" role="status" aria-label={t("common.loading")}>
             <div className="skeleton" />
           </div>
         )}

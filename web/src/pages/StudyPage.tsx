@@ -1,4 +1,5 @@
 // One study, live: its curves over the paper's, its runs, and what it leaves behind.
+
 import { useCallback, useEffect } from "react";
 import { Header } from "../components/Header";
 import { ProblemCard } from "../components/ProblemCard";
@@ -6,6 +7,7 @@ import { StudyChart, StudyLegend } from "../components/StudyChart";
 import { StudyProgress, studyState } from "../components/StudyProgress";
 import { StudyRuns } from "../components/StudyRuns";
 import * as http from "../http";
+import { t } from "../i18n";
 import { notesOf } from "../studyLines";
 import { usePolled } from "../usePolled";
 import type { Study, StudyScenario } from "../wire";
@@ -19,7 +21,7 @@ function Scenario({ study, scenario }: { study: Study; scenario: StudyScenario }
       {scenario.curves.length > 0 ? (
         <StudyChart scenario={scenario} />
       ) : (
-        <p className="empty-chart">The curves begin with the first evaluation.</p>
+        <p className="empty-chart">{t("studies.curvesLater")}</p>
       )}
       <StudyLegend scenario={scenario} />
       {scenario.curves.length > 0 && (
@@ -38,12 +40,12 @@ function Files({ study }: { study: Study }) {
   const rest = study.files.filter((file) => !file.endsWith(".png"));
   if (study.files.length === 0) return null;
   return (
-    <section className="card" aria-label="Figures and tables" data-testid="files">
-      <h2>Figures and tables</h2>
+    <section className="card" aria-label={t("studies.files")} data-testid="files">
+      <h2>{t("studies.files")}</h2>
       <div className="study-figures">
         {figures.map((file) => (
           <a key={file} href={http.studyFile(study.name, file)} download={file}>
-            <img src={http.studyFile(study.name, file)} alt={`Figure ${file}`} loading="lazy" />
+            <img src={http.studyFile(study.name, file)} alt={t("studies.figure", { file })} loading="lazy" />
           </a>
         ))}
       </div>
@@ -77,7 +79,13 @@ export function StudyPage({ name }: { name: string }) {
             </div>
             {study && (
               <p className="soft">
-                {`${study.study} on ${study.adapter} · ${study.finished} of ${study.runs} runs finished · ${Math.floor(100 * study.done)} % done`}
+                {t("studies.summary", {
+                  study: study.study,
+                  adapter: study.adapter,
+                  finished: study.finished,
+                  runs: study.runs,
+                  done: `${Math.floor(100 * study.done)} %`,
+                })}
               </p>
             )}
           </div>
@@ -92,12 +100,12 @@ export function StudyPage({ name }: { name: string }) {
         {study && studyState(study) === "interrupted" && (
           <div className="banner">
             <div>
-              <b>No process works on it.</b> Go on with{" "}
+              <b>{t("studies.noProcess")}</b> {t("studies.goOn")}{" "}
               <code>{`seed study ${study.study} --resume --out …/studies/${name}`}</code>
             </div>
           </div>
         )}
-        {!study && <div className="skeleton" role="status" aria-label="Loading" />}
+        {!study && <div className="skeleton" role="status" aria-label={t("common.loading")} />}
         {study?.scenarios.map((scenario) => (
           <Scenario key={scenario.name} study={study} scenario={scenario} />
         ))}

@@ -1,4 +1,5 @@
 // The trainer's page: judge proposals on camera pictures, watch approved ones run, stop at any time.
+
 import { useEffect, useMemo, useState } from "react";
 import { activity } from "../activity";
 import { ActivityLine } from "../components/ActivityLine";
@@ -16,6 +17,7 @@ import { SidePanel } from "../components/SidePanel";
 import { StopButton } from "../components/StopButton";
 import { TrainerTitle } from "../components/TrainerTitle";
 import { useDrawn, Views } from "../components/Views";
+import { t } from "../i18n";
 import { ImageStore } from "../images";
 import { queueOf } from "../robots";
 import { useSession } from "../session";
@@ -76,9 +78,7 @@ export function TrainerPage({ id }: { id: number }) {
               live={live}
               moving={state.execution !== null}
               skill={state.execution?.skill ?? (overlay ? drawn.skill : null)}
-              empty={
-                experiment?.lifecycle === "created" ? "Start, and the first proposal shows here." : now.text
-              }
+              empty={experiment?.lifecycle === "created" ? t("camera.start") : now.text}
             />
             <div className="dock">
               <ActivityLine

@@ -1,0 +1,66 @@
+// How the page looks and speaks in this browser: colours and language, remembered.
+import { useState } from "react";
+import { chooseLanguage, LANGUAGES, nameOf, t, useLanguage } from "../i18n";
+import { chooseTheme, THEMES, useTheme } from "../theme";
+import { Dialog } from "./Dialog";
+import { Choice } from "./Field";
+import { Sliders } from "./icons";
+
+function Panel({ onClose }: { onClose: () => void }) {
+  const chosen = useTheme();
+  const language = useLanguage();
+  return (
+    <Dialog title={t("settings.title")} onClose={onClose}>
+      <div className="preferences">
+        <div className="field">
+          <span id="theme-label">{t("settings.theme")}</span>
+          <fieldset className="segments" aria-labelledby="theme-label">
+            {THEMES.map((theme) => (
+              <label key={theme}>
+                <input
+                  type="radio"
+                  name="theme"
+                  checked={chosen === theme}
+                  onChange={() => chooseTheme(theme)}
+                  data-testid={`theme-${theme}`}
+                />
+                {t(`settings.${theme}`)}
+              </label>
+            ))}
+          </fieldset>
+        </div>
+        <Choice
+          label={t("settings.language")}
+          name="language"
+          value={language}
+          options={LANGUAGES.map((tag) => ({ value: tag, label: nameOf(tag) }))}
+          onChange={(tag) => void chooseLanguage(tag)}
+        />
+      </div>
+      <div className="actions">
+        <button type="button" className="button primary" onClick={onClose} data-testid="preferences-done">
+          {t("common.done")}
+        </button>
+      </div>
+    </Dialog>
+  );
+}
+
+export function Preferences() {
+  const [open, setOpen] = useState(false);
+  return (
+    <>
+      <button
+        type="button"
+        className="icon-button"
+        aria-label={t("header.settings")}
+        title={t("header.settings")}
+        data-testid="preferences"
+        onClick={() => setOpen(true)}
+      >
+        <Sliders />
+      </button>
+      {open && <Panel onClose={() => setOpen(false)} />}
+    </>
+  );
+}

@@ -1,0 +1,27 @@
+// Numbers as the reader's language writes them.
+import { language } from "./index";
+
+function fixed(value: number, digits: number): string {
+  return new Intl.NumberFormat(language(), {
+    minimumFractionDigits: digits,
+    maximumFractionDigits: digits,
+  }).format(value);
+}
+
+/** With as many digits after the point. */
+export const decimal = (value: number, digits = 2) => fixed(value, digits).replace("-", "−");
+
+/** A count, with its thousands apart. */
+export const whole = (value: number) => value.toLocaleString(language());
+
+/** 0.42 as "42 %". */
+export const percent = (share: number, digits = 0) => `${fixed(100 * share, digits)} %`;
+
+/** As "+0.42", with a true minus, and without a sign at 0. */
+export function signed(value: number, digits = 2): string {
+  const text = fixed(Math.abs(value), digits);
+  if (Number(Math.abs(value).toFixed(digits)) === 0) return text;
+  return value < 0 ? `−${text}` : `+${text}`;
+}
+
+export const moment = (iso: string) => new Date(iso).toLocaleString(language());
