@@ -95,6 +95,18 @@ class SkillSpec:
         return np.where(span > 0, 2.0 * (values - self.low) / safe - 1.0, 0.0)
 
 
+def workspace(skills: tuple[SkillSpec, ...]) -> tuple[Array, Array] | None:
+    """Opposite corners, (3,) m each, of the box that holds every place any of `skills` may be asked for."""
+    limits = {
+        axis: [limit for spec in skills for p in spec.parameters if p.name == axis for limit in (p.low, p.high)]
+        for axis in "xyz"
+    }
+    if not all(limits.values()):
+        return None
+    low, high = (np.array([end(limits[axis]) for axis in "xyz"]) for end in (min, max))
+    return low, high
+
+
 @dataclass(frozen=True)
 class SkillCall:
     """A skill with its parameters in the order of its `SkillSpec`."""
@@ -223,20 +235,30 @@ class SkillResult:
     violations: tuple[SafetyViolation, ...] = ()
 
 
+Pixel = tuple[float, float]
+"""u to the right, v down, from the top left corner of a full-size image."""
+
+
 @dataclass(frozen=True)
 class CameraOverlay:
     """A skill call drawn for one camera, in pixels of its full-size image; a point may lie outside the image.
 
     dot: the parameter's position. line: height above the table, or push direction and length. bar: the gripper's
-    closing direction. ring: where the drop line meets the table. A skill without a position has only its name.
+    closing direction. ring: where the drop line meets the table. ghost: outlines of the fingers and the hand as they
+    are at the end of the way to the target. yaw: the gripper's angle about z, rad, that bar and ghost are drawn for.
+    workspace: the eight corners of where the task's skills may act, the lower four first, each four in turn.
+    A skill without a position has only its name and the workspace.
     """
 
-    dot: tuple[float, float] | None = None
-    line: tuple[tuple[float, float], tuple[float, float]] | None = None
+    dot: Pixel | None = None
+    line: tuple[Pixel, Pixel] | None = None
     arrow: bool = False
-    bar: tuple[tuple[float, float], tuple[float, float]] | None = None
-    ring: tuple[float, float] | None = None
+    bar: tuple[Pixel, Pixel] | None = None
+    ring: Pixel | None = None
     in_view: bool = True
+    ghost: tuple[tuple[Pixel, ...], ...] = ()
+    yaw: float | None = None
+    workspace: tuple[Pixel, ...] = ()
 
 
 @dataclass(frozen=True)

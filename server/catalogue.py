@@ -17,6 +17,7 @@ from robot_adapters.tasks.base import Task
 from robot_adapters.tasks.layout import LayoutSettings
 from server import auto_approval
 from server.errors import invalid
+from server.scene import scene_info
 from server.schemas import Aggregation, ExperimentCreate
 from server.schemas_catalogue import AdapterInfo, AlgorithmInfo, Parameter, Skill, TaskInfo, TeacherInfo
 from server.schemas_problems import FieldProblem
@@ -67,6 +68,7 @@ def task_info(name: str, kind: type[Task]) -> TaskInfo:
         skills=skills,
         subgoals=[s.description for s in task.subgoals],
         horizon=task.horizon,
+        scene=scene_info(task),
     )
 
 

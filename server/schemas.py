@@ -185,6 +185,13 @@ class Overlay(Wire):
     bar: tuple[Point, Point] | None = None
     ring: Point | None = None
     in_view: bool = True
+    ghost: Annotated[
+        list[list[Point]], Field(description="outlines of fingers and hand at the target; empty where not known")
+    ] = []
+    yaw: Annotated[float | None, Field(description="the gripper's angle, rad, that bar and ghost are drawn for")] = None
+    workspace: Annotated[
+        list[Point], Field(description="corners of where skills may act, the lower four first; empty where not known")
+    ] = []
 
 
 class View(Wire):

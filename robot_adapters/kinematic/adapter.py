@@ -121,7 +121,8 @@ class KinematicAdapter:
             InvalidCall: the call doesn't fit the task.
         """
         spec = check_call(call, self._task.skills)
-        return {name: overlay(CALIBRATIONS[name], call, spec, self._task.table_height) for name in self.info.cameras}
+        skills, height = self._task.skills, self._task.table_height
+        return {name: overlay(CALIBRATIONS[name], call, spec, height, skills=skills) for name in self.info.cameras}
 
     def frame(self, camera: str) -> CameraFrame:
         """One picture now, for live video.

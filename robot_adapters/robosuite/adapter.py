@@ -138,7 +138,7 @@ class RobosuiteAdapter:
         spec = check_call(call, self._task.skills)
         yaw = self._yaw(call, spec)
         return {
-            name: overlay(calibration, call, spec, self._task.table_height, yaw=yaw)
+            name: overlay(calibration, call, spec, self._task.table_height, yaw=yaw, skills=self._task.skills)
             for name, calibration in self._calibrations.items()
         }
 

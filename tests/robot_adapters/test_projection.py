@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from robot_adapters.base import CameraCalibration, ParameterSpec, SkillCall, SkillSpec
-from robot_adapters.projection import intrinsics, look_at, overlay, project
+from robot_adapters.projection import hull, intrinsics, look_at, overlay, project
 
 TABLE = -0.1
 
@@ -99,3 +99,39 @@ def test_outside_the_image_is_out_of_view(above: CameraCalibration) -> None:
     behind = overlay(above, SkillCall("pick", (0.0, 0.0, 1.5)), PICK, TABLE)
     assert behind.dot is None
     assert not behind.in_view
+
+
+def test_the_ghost_is_the_gripper_at_the_target_turned_as_the_bar_is(above: CameraCalibration) -> None:
+    drawn = overlay(above, SkillCall("pick", (0.0, 0.0, 0.0)), PICK, TABLE, yaw=math.pi / 2)
+    left, right, hand = (np.array(outline) for outline in drawn.ghost)
+    assert drawn.yaw == math.pi / 2
+    # at this yaw the fingers lie along x, which is up and down in this picture, as far apart as the bar is long
+    assert left[:, 0].mean() == pytest.approx(320)
+    assert right[:, 0].mean() == pytest.approx(320)
+    assert np.ptp(np.concatenate([left, right])[:, 1]) == pytest.approx(500 * 0.112 / (1 - 0.047), rel=0.02)
+    assert np.ptp(hand[:, 1]) == pytest.approx(500 * 0.204 / (1 - 0.111), rel=0.01)
+
+
+def test_the_ghost_of_a_push_is_where_it_ends_with_closed_fingers(above: CameraCalibration) -> None:
+    drawn = overlay(above, SkillCall("push", (0.0, 0.0, 0.0, 1.0, 0.1)), PUSH, TABLE)
+    assert drawn.line is not None
+    assert np.concatenate(drawn.ghost[:2]).mean(axis=0) == pytest.approx(drawn.line[1], abs=4)
+    assert not overlay(above, SkillCall("pick", (0.0, 0.0, 0.95)), PICK, TABLE).ghost  # the hand is behind the lens
+
+
+def test_the_workspace_holds_every_place_that_a_skill_may_act_at(above: CameraCalibration) -> None:
+    def at(x: float, y: float, z: float) -> SkillSpec:
+        bounds = (("x", 0.0, x), ("y", -y, y), ("z", TABLE, z))
+        return SkillSpec("pick", tuple(ParameterSpec(name, "m", low, high) for name, low, high in bounds))
+
+    skills = (at(0.1, 0.2, 0.3), at(0.2, 0.1, 0.0))
+    drawn = overlay(above, SkillCall("pick", (0.0, 0.0, 0.0)), skills[1], TABLE, skills=skills)
+    expected = [(x, y, z) for z in (TABLE, 0.3) for x, y in ((0.0, -0.2), (0.2, -0.2), (0.2, 0.2), (0.0, 0.2))]
+    assert np.array(drawn.workspace) == pytest.approx(project(above, np.array(expected))[0])
+    release = SkillSpec("release")
+    assert overlay(above, SkillCall("release"), release, TABLE, skills=(release,)).workspace == ()
+
+
+def test_a_hull_keeps_only_corners() -> None:
+    square = np.array([[0, 0], [2, 0], [1, 0], [1, 1], [2, 2], [0, 2], [0, 1]], dtype=float)
+    assert sorted(hull(square)) == [(0, 0), (0, 2), (2, 0), (2, 2)]

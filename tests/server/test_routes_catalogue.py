@@ -125,3 +125,22 @@ def test_the_catalogue_loads_neither_torch_nor_a_simulator() -> None:
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+async def test_a_task_tells_its_scene_and_where_the_state_has_each_place(tmp_path: Path) -> None:
+    async with serving(tmp_path) as live:
+        tasks = {task["name"]: task for task in (await live.http.get("/api/v1/tasks")).json()}
+    for name in ("reaching", "stacking", "sweeping", "collecting_toy", "cooking_hotdog"):
+        scene = tasks[name]["scene"]
+        for thing in scene["objects"]:
+            told = thing["fixed"] or thing["state_at"] is not None or thing["slides_at"] is not None
+            assert told, f"{name}: nothing tells where {thing['name']} is"
+        low, high = scene["workspace"]
+        assert all(a < b for a, b in zip(low, high, strict=True))
+    stacking = {thing["name"]: thing for thing in tasks["stacking"]["scene"]["objects"]}
+    assert (stacking["block_a"]["state_at"], stacking["block_b"]["state_at"]) == (0, 3)
+    toy = next(thing for thing in tasks["sweeping"]["scene"]["objects"] if thing["name"] == "toy")
+    assert toy["state_size"] == 2
+    drawer = next(thing for thing in tasks["collecting_toy"]["scene"]["objects"] if thing["name"] == "drawer")
+    assert (drawer["slides_at"], len(drawer["parts"])) == (3, 6)
+    assert tasks["reaching"]["scene"]["gripper_at"] == 0

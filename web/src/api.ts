@@ -2280,6 +2280,29 @@ export interface components {
              * @default true
              */
             in_view: boolean;
+            /**
+             * Ghost
+             * @description outlines of fingers and hand at the target; empty where not known
+             * @default []
+             */
+            ghost: [
+                number,
+                number
+            ][][];
+            /**
+             * Yaw
+             * @description the gripper's angle, rad, that bar and ghost are drawn for
+             */
+            yaw: number | null;
+            /**
+             * Workspace
+             * @description corners of where skills may act, the lower four first; empty where not known
+             * @default []
+             */
+            workspace: [
+                number,
+                number
+            ][];
         };
         /**
          * Parameter
@@ -2576,6 +2599,83 @@ export interface components {
             missed: number;
         };
         /**
+         * SceneInfo
+         * @description A task's scene, enough to draw it from the state alone. Lengths in m, robot base frame.
+         */
+        SceneInfo: {
+            /** Table Height */
+            table_height: number;
+            /** Table Centre */
+            table_centre: [
+                number,
+                number
+            ];
+            /**
+             * Workspace
+             * @description corners of where skills may act
+             */
+            workspace: [
+                [
+                    number,
+                    number,
+                    number
+                ],
+                [
+                    number,
+                    number,
+                    number
+                ]
+            ] | null;
+            /** Objects */
+            objects: components["schemas"]["SceneObject"][];
+            /**
+             * Gripper At
+             * @description index in the state of the grip site's x; null: not told
+             */
+            gripper_at: number | null;
+        };
+        /**
+         * SceneObject
+         * @description Something on the table, and where the state vector tells its place. All lengths in m, robot base frame.
+         */
+        SceneObject: {
+            /** Name */
+            name: string;
+            /** Parts */
+            parts: components["schemas"]["Solid"][];
+            /**
+             * Fixed
+             * @description where it stands, or stands when slid shut
+             */
+            fixed: [
+                number,
+                number,
+                number
+            ] | null;
+            /**
+             * State At
+             * @description index of its x in the state, y and maybe z after it; null: not told
+             */
+            state_at: number | null;
+            /**
+             * State Size
+             * @description 2: the state has no z, it lies on the table
+             * @default 3
+             */
+            state_size: number;
+            /**
+             * Slides At
+             * @description index in the state of how far it is from `fixed` towards the robot
+             */
+            slides_at: number | null;
+            /**
+             * Rests
+             * @description height of its origin above the table when it lies there
+             * @default 0
+             */
+            rests: number;
+        };
+        /**
          * Skill
          * @description A primitive that a task offers.
          */
@@ -2634,6 +2734,40 @@ export interface components {
              * @description changes when the server restarts
              */
             boot_id: string;
+        };
+        /**
+         * Solid
+         * @description A visible part of an object: a box, or a disc or ring about z. `centre` from the object's origin, m.
+         */
+        Solid: {
+            /**
+             * Shape
+             * @enum {string}
+             */
+            shape: "box" | "disc" | "ring" | "sphere";
+            /** Centre */
+            centre: [
+                number,
+                number,
+                number
+            ];
+            /** Half */
+            half: [
+                number,
+                number,
+                number
+            ];
+            /** Colour */
+            colour: [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Opacity
+             * @default 1
+             */
+            opacity: number;
         };
         /**
          * StoredEvent
@@ -2844,6 +2978,7 @@ export interface components {
             subgoals: string[];
             /** Horizon */
             horizon: number;
+            scene: components["schemas"]["SceneInfo"];
         };
         /**
          * TeacherInfo
