@@ -53,7 +53,7 @@ def reliability(judged: Sequence[tuple[float, float]], bins: int = BINS) -> Reli
     return Reliability(made, count, error)
 
 
-def wilson(successes: int, count: int, z: float = Z_95) -> tuple[float, float]:
+def wilson(successes: float, count: int, z: float = Z_95) -> tuple[float, float]:
     """Wilson's score interval of a share: sound for few trials and for shares near 1, where the usual one isn't.
 
     Raises:

@@ -29,12 +29,23 @@ log = logging.getLogger(__name__)
 
 Publish = Callable[[StreamEvent], None]
 
+CLEAR = 0.005
+"""m from the border of what is good: nearer, nobody is measured by an answer. As the teacher `skipping` sees it."""
+
 
 class Acting:
     """Draws proposals for one robot of an experiment, and moves it by approved ones."""
 
     def __init__(
-        self, experiment: Experiment, store: Store, crew: Crew, robot: Robot, *, publish: Publish, owed: Owed
+        self,
+        experiment: Experiment,
+        store: Store,
+        crew: Crew,
+        robot: Robot,
+        *,
+        publish: Publish,
+        owed: Owed,
+        gold_rate: Callable[[], float],
     ) -> None:
         self._experiment = experiment
         self._experiment_id = experiment.id
@@ -43,6 +54,7 @@ class Acting:
         self._robot = robot
         self._publish = publish
         self._owed = owed
+        self._gold_rate = gold_rate
 
     # looked up when they are needed: an experiment whose plug-in is gone can still be halted and archived
 
@@ -76,6 +88,7 @@ class Acting:
             views=[NewView(p.camera, p.width, p.height, p.image, overlays[p.camera]) for p in seen.pictures],
             purpose=purpose,
             robot=self._robot.index,
+            rule_answer=self._rule_answer(seen, idea.call) if self._gold_rate() else None,
         )
 
     async def decide(self, proposal: Proposal, seen: Seen) -> Execution | None:
@@ -152,6 +165,11 @@ class Acting:
         except InvalidCall:
             return False
         return True
+
+    def _rule_answer(self, seen: Seen, call: SkillCall) -> int | None:
+        """What the task's rule says of the call; None so near the border that a trainer may well see it otherwise."""
+        state = np.array(seen.state)
+        return self.task.judge(state, call) if abs(self.task.margin(state, call)) >= CLEAR else None
 
     def _subgoal(self, seen: Seen) -> str:
         return self.task.subgoals[self.task.subgoal(np.array(seen.state))].description

@@ -12,6 +12,7 @@ def decide(
     mode: Mode,
     by_critic: bool,
     auto_approval: bool,
+    gold: bool,
     verdict: Verdict | None,
     lifecycle: Lifecycle,
     halted: bool,
@@ -23,6 +24,7 @@ def decide(
     """The decision for a training proposal; the reason names the first thing that keeps the gate shut.
 
     by_critic: the verdict is the critic's own. auto_approval: the rule by which it approved still holds.
+    gold: it measured its trainers, and its answer was known; the reason doesn't give that away.
     """
     if halted:
         return _shut("the emergency stop is latched")
@@ -32,6 +34,8 @@ def decide(
         return _shut("a real robot moves by a person's verdict only, and this one is the critic's")
     if by_critic and not auto_approval:
         return _shut("the critic approved it by a rule that no longer holds")
+    if gold:
+        return _shut("held back")
     if mode is not Mode.EXECUTE_APPROVED:
         return _shut("the mode is propose only")
     if lifecycle is not Lifecycle.RUNNING:

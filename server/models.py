@@ -115,6 +115,8 @@ class ExperimentRow(Base):
     auto_approval: Mapped[dict[str, Any] | None] = mapped_column(JSON(none_as_null=True))
     auto_approval_since: Mapped[int] = mapped_column(default=0, server_default=text("0"))
     auto_approval_suspended: Mapped[str | None] = mapped_column(Text)
+    gold_rate: Mapped[float] = mapped_column(default=0.0, server_default=text("0"))
+    practice_required: Mapped[dict[str, Any] | None] = mapped_column(JSON(none_as_null=True))
     created_at: Mapped[datetime]
     updated_at: Mapped[datetime]
 
@@ -201,6 +203,8 @@ class ProposalRow(Base):
     audit: Mapped[bool] = mapped_column(default=False, server_default=text("false"))
     gate_allowed: Mapped[bool | None]
     gate_reason: Mapped[str | None]
+    known_answer: Mapped[int | None]
+    gold_of: Mapped[int | None] = mapped_column(ForeignKey("proposal.id"))
 
     episode: Mapped[EpisodeRow] = relationship(lazy="joined", innerjoin=True)
     observation: Mapped[ObservationRow] = relationship(lazy="joined", innerjoin=True)

@@ -16,6 +16,7 @@ TAGS = [
     {"name": "feedback", "description": "Clicks"},
     {"name": "records", "description": "What an experiment leaves behind"},
     {"name": "trust", "description": "How far the critic may be trusted"},
+    {"name": "quality", "description": "How far labels may be trusted: figures, agreement, known answers, exports"},
     {"name": "studies", "description": "Algorithms x tasks x seeds, run by `seed study`"},
     {"name": "stream", "description": "Messages of the WebSocket /api/v1/experiments/{id}/stream"},
     {"name": "probes", "description": "For whoever runs the service"},

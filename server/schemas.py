@@ -12,6 +12,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, StrictInt
 
 from server.schemas_labels import Answer, ClickId, Relabel, TrainerName, label_of
+from server.schemas_quality import GoldRate
 from server.schemas_trust import Audit, AutoApproval, Suspended, Uncertainty, VerdictSource
 
 
@@ -120,6 +121,7 @@ class ExperimentCreate(Wire):
         ),
     ] = None
     auto_approval: AutoApproval | None = None
+    gold_rate: GoldRate = 0.0
 
 
 class ExperimentUpdate(Wire):
@@ -129,6 +131,7 @@ class ExperimentUpdate(Wire):
     mode: Mode | None = None
     feedback_timeout: Annotated[float | None, Field(gt=0, le=86400)] = None
     auto_approval: AutoApproval | None = None
+    gold_rate: GoldRate | None = None
 
 
 class Experiment(Wire):
@@ -156,6 +159,7 @@ class Experiment(Wire):
     failure: Annotated[str | None, Field(description="why it failed, with the remedy")] = None
     auto_approval: AutoApproval | None = None
     auto_approval_suspended: Suspended = None
+    gold_rate: float = 0.0
     counters: Counters
     created_at: datetime
     updated_at: datetime

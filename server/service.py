@@ -13,6 +13,7 @@ from pathlib import Path
 from server import catalogue
 from server.errors import ServiceError
 from server.hub import Hub
+from server.measuring import Measuring
 from server.publisher import Publisher
 from server.schemas import Experiment, ExperimentCreate, Lifecycle
 from server.schemas_problems import Readiness
@@ -83,11 +84,13 @@ async def opened(settings: Settings, listener: Publisher | None = None) -> Async
             # a first write: a database that can't be written fails here, and not at somebody's first click
             await store.remember("start", "start", "", 200, None)
             rooms = Rooms(queue_limit=settings.viewer_queue)
-            hub = Hub(store, settings, listener or rooms)
+            measuring = Measuring(listener or rooms, store)
+            hub = Hub(store, settings, measuring)
             await hub.start()
             try:
                 yield Service(settings, store, rooms, hub)
             finally:
+                await measuring.close()
                 try:
                     await hub.close()
                 except StoreError as error:

@@ -57,7 +57,13 @@ class Station:
             shared.store, shared.crew, robot, shared.ledger, shared.publish, experiment=lambda: standing.experiment
         )
         self.acting = Acting(
-            standing.experiment, shared.store, shared.crew, robot, publish=shared.publish, owed=standing.owed
+            standing.experiment,
+            shared.store,
+            shared.crew,
+            robot,
+            publish=shared.publish,
+            owed=standing.owed,
+            gold_rate=lambda: standing.experiment.gold_rate,
         )
         # the episode that goes on, and what was seen last in it; None: look again
         self._episode_open = False

@@ -152,6 +152,7 @@ def _decide(
         mode=schemas.Mode(experiment.mode),
         by_critic=_by_critic(proposal),
         auto_approval=store_trust.holds(experiment, proposal),
+        gold=proposal.known_answer is not None,
         verdict=verdict,
         lifecycle=lifecycle,
         halted=experiment.halted,

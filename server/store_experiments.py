@@ -71,7 +71,7 @@ def update(session: Session, experiment_id: int, change: schemas.ExperimentUpdat
     """Change what the body names; a field left out stays, a null time-out means never."""
     row = load(session, experiment_id)
     fields = change.model_dump(mode="json", exclude_unset=True)
-    for required in ("name", "mode"):
+    for required in ("name", "mode", "gold_rate"):
         if fields.get(required, "") is None:
             del fields[required]
     if "auto_approval" in fields:

@@ -119,6 +119,7 @@ def _labels(session: Session, *where: ColumnElement[bool]) -> list[StoredLabel]:
             FeedbackRow.status == "stored",
             FeedbackRow.undone_at.is_(None),
             ProposalRow.purpose == "training",
+            ProposalRow.known_answer.is_(None),
             # a time-out trains nothing, whoever voted before it; where nobody could tell, a correction does
             or_(ProposalRow.verdict.is_not(None), ProposalRow.close_reason == "cant_tell"),
         )

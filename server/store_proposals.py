@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
+from typing import Any
 
 from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
-from server import aggregation, lifecycle, schemas, schemas_trust
+from server import aggregation, lifecycle, schemas, schemas_trust, store_gold
 from server.models import (
     EvaluationRow,
     ExecutionRow,
@@ -23,6 +24,12 @@ from server.store_labels import count, labels_of, trainer
 from server.store_values import NewProposal, NewView, Submission, Undone
 from server.store_wire import feedback as feedback_wire
 from server.store_wire import proposal as proposal_wire
+
+CONTENT = (
+    *("observation", "skill", "parameters", "parameter_names", "digest", "views", "subgoal"),
+    *("predicted_feedback", "uncertainty", "skill_probabilities", "policy_version"),
+)
+"""Columns of what is proposed, and of what it was drawn on: a marked proposal is shown again with the same."""
 
 
 def load_proposal(session: Session, proposal_id: int) -> ProposalRow:
@@ -49,32 +56,26 @@ def open_proposal(session: Session, new: NewProposal) -> ProposalRow:
     else:
         lifecycle.apply(state(experiment), "evaluate")
     _must_stand_still(session, new.experiment_id, new.robot)
-    observation = _observation(session, new)
     episode = open_episode(session, new.experiment_id, new.robot)
     if episode is None or episode.purpose != new.purpose:
         if new.purpose == "training":
             raise Conflict("no episode has begun", remedy="reset the robot first")
         episode = begin_episode(session, new.experiment_id, 0, "evaluation", new.robot)
     newest = session.scalar(select(func.max(ProposalRow.number)).where(ProposalRow.experiment_id == new.experiment_id))
+    number = (newest or 0) + 1
+    known = store_gold.drawn(session, experiment, new, number)
+    again = known.again if known is not None else None
     row = ProposalRow(
         experiment_id=new.experiment_id,
         robot=new.robot,
         episode=episode,
-        observation=observation,
-        number=(newest or 0) + 1,
+        number=number,
         purpose=new.purpose,
-        skill=new.call.skill,
-        parameters=[float(value) for value in new.call.parameters],
-        parameter_names=list(new.parameter_names),
-        digest=new.call.digest,
-        predicted_feedback=float(new.predicted_feedback),
-        uncertainty=None if new.uncertainty is None else float(new.uncertainty),
-        skill_probabilities={name: float(value) for name, value in new.skill_probabilities.items()},
-        policy_version=new.policy_version,
-        subgoal=new.subgoal,
-        views=[_view(view) for view in new.views],
         electorate=list(new.electorate),
         opened_at=now(),
+        known_answer=known.answer if known is not None else None,
+        gold_of=again.id if again is not None else None,
+        **(_content(session, new) if again is None else {name: getattr(again, name) for name in CONTENT}),
     )
     session.add(row)
     if new.purpose == "training":
@@ -221,7 +222,10 @@ def why_not_undoable(session: Session, row: FeedbackRow) -> str | None:
     )
     if session.scalar(select(ExecutionRow.id).where(ExecutionRow.proposal_id.in_(since)).limit(1)) is not None:
         return "the robot has moved since"
-    other = since.where(ProposalRow.observation_id != judged.observation_id)
+    # a gold one may show an earlier scene again, without anything being looked at
+    other = since.where(ProposalRow.observation_id != judged.observation_id, ProposalRow.gold_of.is_(None))
+    if judged.gold_of is not None:
+        return None
     if session.scalar(other.limit(1)) is not None:
         return "the scene was observed anew since"
     return None
@@ -293,6 +297,23 @@ def _observation(session: Session, new: NewProposal) -> ObservationRow:
     )
     session.add(row)
     return row
+
+
+def _content(session: Session, new: NewProposal) -> dict[str, Any]:
+    """What is proposed, and what it was drawn on."""
+    return {
+        "observation": _observation(session, new),
+        "skill": new.call.skill,
+        "parameters": [float(value) for value in new.call.parameters],
+        "parameter_names": list(new.parameter_names),
+        "digest": new.call.digest,
+        "predicted_feedback": float(new.predicted_feedback),
+        "uncertainty": None if new.uncertainty is None else float(new.uncertainty),
+        "skill_probabilities": {name: float(value) for name, value in new.skill_probabilities.items()},
+        "policy_version": new.policy_version,
+        "subgoal": new.subgoal,
+        "views": [_view(view) for view in new.views],
+    }
 
 
 def _view(view: NewView) -> dict[str, object]:

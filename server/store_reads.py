@@ -24,6 +24,7 @@ from server.database import Database
 from server.schemas_catalogue import TrainerPage
 from server.schemas_trust import AutoApprovalRecord, Calibration
 from server.store_errors import NotFound
+from server.store_quality import QualityStore
 from server.store_values import StoredLabel, StoredResponse
 
 T = TypeVar("T")
@@ -35,6 +36,7 @@ class Reads:
 
     def __init__(self, database: Database) -> None:
         self._database = database
+        self.quality = QualityStore(database)
 
     async def experiment(self, experiment_id: int) -> schemas.Experiment:
         """One experiment."""
@@ -176,6 +178,10 @@ class Reads:
     async def idempotent(self, key: str, route: str, body_digest: str) -> StoredResponse | None:
         """The answer that this key got before on this route; Conflict where the body was another."""
         return await self._database.read(lambda s: store_records.idempotent(s, key, route, body_digest))
+
+    async def read(self, run: Callable[[Session], T]) -> T:
+        """Run a query of another module of the store's on a snapshot."""
+        return await self._database.read(run)
 
     async def _one(self, kind: type[T], row_id: int, what: str, convert: Callable[[T], W]) -> W:
         def find(session: Session) -> W:

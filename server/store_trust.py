@@ -103,6 +103,7 @@ def consider(session: Session, proposal_id: int, *, simulated: bool) -> Consider
         or proposal.closed_at is not None
         or proposal.purpose != "training"
         or proposal.audit
+        or proposal.known_answer is not None
         or session.scalar(touched) is not None
     ):
         return asked

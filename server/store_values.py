@@ -29,7 +29,8 @@ class NewProposal:
     """A proposal to open. `state` is the task's vector; parameters are metres and radians, robot base frame.
 
     taken_at: seconds since the epoch. electorate: the trainers whose votes majority and unanimous ask for.
-    robot: index of the robot that saw the observation and would run the call.
+    robot: index of the robot that saw the observation and would run the call. rule_answer: what the task's rule says
+    of the call where that is clear, +1 or -1; it is looked at only if the proposal is drawn to measure trainers.
     """
 
     experiment_id: int
@@ -47,6 +48,7 @@ class NewProposal:
     purpose: Purpose = "training"
     electorate: Sequence[str] = ("local",)
     robot: int = 0
+    rule_answer: int | None = None
 
 
 @dataclass(frozen=True)

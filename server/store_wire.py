@@ -34,6 +34,7 @@ def experiment(row: models.ExperimentRow) -> schemas.Experiment:
         failure=row.failure,
         auto_approval=AutoApproval.model_validate(row.auto_approval) if row.auto_approval else None,
         auto_approval_suspended=row.auto_approval_suspended,
+        gold_rate=row.gold_rate,
         counters=schemas.Counters(**counters),
         created_at=row.created_at,
         updated_at=row.updated_at,

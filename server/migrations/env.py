@@ -4,6 +4,7 @@ from typing import Any, Literal
 
 from alembic import context
 
+from server import models_quality  # noqa: F401 - its tables belong to the metadata too
 from server.models import Base, UtcDateTime
 
 

@@ -14,13 +14,21 @@ VERDICTS: tuple[Verdict | None, ...] = (*Verdict, None)
 def test_opens_for_exactly_one_kind_of_situation() -> None:
     opened = 0
     # in two products: mypy knows the types of a product of few only
-    for (mode, verdict, lifecycle, critic, rule), (halted, simulated, operator, inside, current) in itertools.product(
-        itertools.product(Mode, VERDICTS, Lifecycle, BOTH, BOTH), itertools.product(BOTH, BOTH, BOTH, BOTH, BOTH)
+    for (mode, verdict, lifecycle, (critic, gold), rule), (
+        halted,
+        simulated,
+        operator,
+        inside,
+        current,
+    ) in itertools.product(
+        itertools.product(Mode, VERDICTS, Lifecycle, itertools.product(BOTH, BOTH), BOTH),
+        itertools.product(BOTH, BOTH, BOTH, BOTH, BOTH),
     ):
         decision = gate.decide(
             mode=mode,
             by_critic=critic,
             auto_approval=rule,
+            gold=gold,
             verdict=verdict,
             lifecycle=lifecycle,
             halted=halted,
@@ -38,6 +46,7 @@ def test_opens_for_exactly_one_kind_of_situation() -> None:
             and inside
             and current
             and (not critic or (simulated and rule))
+            and not gold
         )
         assert decision.allowed == expected
         assert not (decision.allowed and critic and not simulated)  # whatever else holds
@@ -77,6 +86,7 @@ def test_the_reason_names_what_is_in_the_way() -> None:
         mode=Mode.PROPOSE_ONLY,
         by_critic=False,
         auto_approval=False,
+        gold=False,
         verdict=Verdict.GOOD,
         lifecycle=Lifecycle.RUNNING,
         halted=False,

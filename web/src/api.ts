@@ -697,6 +697,110 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/experiments/{experiment_id}/quality": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Quality
+         * @description Everybody's figures, and how far trainers agree.
+         */
+        get: operations["get_quality"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/experiments/{experiment_id}/quality/mine": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Own Figures
+         * @description One's own figures. Known answers are told in steps of five, so that no proposal is given away.
+         */
+        get: operations["get_own_figures"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/experiments/{experiment_id}/gold": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Gold
+         * @description Closed proposals whose answer was known before they were shown, with everybody's answer; newest first.
+         */
+        get: operations["list_gold"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/proposals/{proposal_id}/gold": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Mark Gold
+         * @description Know the answer to a closed proposal: at the experiment's `gold_rate` it is shown again, among the others.
+         */
+        put: operations["mark_gold"];
+        post?: never;
+        /**
+         * Unmark Gold
+         * @description Show a marked proposal no more.
+         */
+        delete: operations["unmark_gold"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/experiments/{experiment_id}/exports/feedback": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Feedback
+         * @description Every click with its history: corrections, late ones, those taken back, can't tell, gold, practice.
+         */
+        get: operations["export_feedback"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/studies": {
         parameters: {
             query?: never;
@@ -1231,6 +1335,31 @@ export interface components {
          */
         Aggregation: "first" | "majority" | "unanimous";
         /**
+         * AgreementInfo
+         * @description Krippendorff's alpha, ordinal over bad, neutral and good; late clicks count, who can't tell is missing.
+         */
+        AgreementInfo: {
+            /**
+             * Alpha
+             * @description 1: perfect; 0: as by chance; null: see `why`
+             */
+            alpha: number | null;
+            /**
+             * Proposals
+             * @description judged by two trainers or more
+             */
+            proposals: number;
+            /** Labels */
+            labels: number;
+            /** Trainers */
+            trainers: number;
+            /**
+             * Why
+             * @description what is missing before it can be told
+             */
+            why: string | null;
+        };
+        /**
          * AlgorithmInfo
          * @description An algorithm of the catalogue; `settings_schema` is JSON Schema.
          */
@@ -1603,6 +1732,40 @@ export interface components {
             auto_approved: number;
         };
         /**
+         * Estimate
+         * @description How often a trainer is right, estimated from everybody's labels and from known answers.
+         */
+        Estimate: {
+            /**
+             * Accuracy
+             * @description share of labels expected to be true; null: nothing to compare them with
+             */
+            accuracy: number | null;
+            /**
+             * Interval
+             * @description 95 % interval of that share
+             */
+            interval: [
+                number,
+                number
+            ] | null;
+            /**
+             * Informative
+             * @description good and bad labels that others, or a known answer, can be held to
+             */
+            informative: number;
+            /**
+             * Weight
+             * @description what `weighted` counts; 2/3 for a trainer of whom nothing is known
+             */
+            weight: number;
+            /**
+             * At
+             * @description when it was estimated; null: not yet
+             */
+            at: string | null;
+        };
+        /**
          * Evaluation
          * @description Rollouts of the deterministic policy (paper, section 'Evaluation metrics': 10 a time).
          */
@@ -1848,6 +2011,11 @@ export interface components {
              * @description why auto-approval has suspended itself; setting it anew lifts it
              */
             auto_approval_suspended: string | null;
+            /**
+             * Gold Rate
+             * @default 0
+             */
+            gold_rate: number;
             counters: components["schemas"]["Counters"];
             /**
              * Created At
@@ -1966,6 +2134,12 @@ export interface components {
              */
             lockstep?: boolean | null;
             auto_approval?: components["schemas"]["AutoApproval"] | null;
+            /**
+             * Gold Rate
+             * @description share of proposals whose answer is known beforehand: they measure trainers, look like all others, are never executed and never learned from; 0 turns it off
+             * @default 0
+             */
+            gold_rate: number;
         };
         /**
          * ExperimentPage
@@ -1988,6 +2162,8 @@ export interface components {
             /** Feedback Timeout */
             feedback_timeout?: number | null;
             auto_approval?: components["schemas"]["AutoApproval"] | null;
+            /** Gold Rate */
+            gold_rate?: number | null;
         };
         /**
          * Feedback
@@ -2164,6 +2340,75 @@ export interface components {
             reason: string;
         };
         /**
+         * Gold
+         * @description A proposal whose answer was known before it was shown; told of only once it is closed.
+         */
+        Gold: {
+            /** Proposal Id */
+            proposal_id: number;
+            /** Number */
+            number: number;
+            /** Skill */
+            skill: string;
+            /**
+             * Known Answer
+             * @description -1 bad, +1 good
+             */
+            known_answer: number;
+            /**
+             * Source
+             * @description the task's rule, or an operator's mark
+             * @enum {string}
+             */
+            source: "rule" | "operator";
+            /** Answers */
+            answers: components["schemas"]["GoldAnswer"][];
+        };
+        /**
+         * GoldAnswer
+         * @description What one trainer said of a proposal whose answer was known.
+         */
+        GoldAnswer: {
+            /** Trainer */
+            trainer: string;
+            /**
+             * Value
+             * @description -1 bad, 0 neutral, +1 good; cant_tell: nothing can be said from this view. That is an abstention: stored, never learned from, and neither for nor against
+             * @enum {unknown}
+             */
+            value: -1 | 0 | 1 | "cant_tell";
+            /** Right */
+            right: boolean;
+        };
+        /**
+         * GoldMark
+         * @description An operator knows the answer to a closed proposal.
+         */
+        GoldMark: {
+            /**
+             * Answer
+             * @description -1 bad, +1 good
+             * @enum {integer}
+             */
+            answer: -1 | 1;
+            /**
+             * Trainer
+             * @description who says so
+             * @default local
+             */
+            trainer: string;
+        };
+        /**
+         * GoldPage
+         * @description Closed proposals whose answer was known, newest first.
+         */
+        GoldPage: {
+            /** Items */
+            items: components["schemas"]["Gold"][];
+            /** Next Cursor */
+            next_cursor: string | null;
+        };
+        /**
          * Health
          * @description The process is up. `boot_id` changes when the server restarts.
          */
@@ -2176,6 +2421,22 @@ export interface components {
             status: "ok";
             /** Boot Id */
             boot_id: string;
+        };
+        /**
+         * LabelQuality
+         * @description Everybody's figures, and how far they agree.
+         */
+        LabelQuality: {
+            /** Experiment Id */
+            experiment_id: number;
+            agreement: components["schemas"]["AgreementInfo"];
+            /**
+             * Gold
+             * @description closed proposals whose answer was known
+             */
+            gold: number;
+            /** Trainers */
+            trainers: components["schemas"]["TrainerFigures"][];
         };
         /**
          * Lifecycle
@@ -2676,6 +2937,16 @@ export interface components {
             rests: number;
         };
         /**
+         * Share
+         * @description So many of so many.
+         */
+        Share: {
+            /** Count */
+            count: number;
+            /** Of */
+            of: number;
+        };
+        /**
          * Skill
          * @description A primitive that a task offers.
          */
@@ -3013,6 +3284,56 @@ export interface components {
              * Format: date-time
              */
             created_at: string;
+        };
+        /**
+         * TrainerFigures
+         * @description One trainer's work in one experiment.
+         */
+        TrainerFigures: {
+            /** Trainer */
+            trainer: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "person" | "teacher";
+            /**
+             * Labels
+             * @description good, neutral and bad clicks that counted
+             */
+            labels: number;
+            /** Good */
+            good: number;
+            /** Neutral */
+            neutral: number;
+            /** Bad */
+            bad: number;
+            /** Cant Tell */
+            cant_tell: number;
+            /** Late */
+            late: number;
+            /**
+             * Relabelled
+             * @description clicks corrected later
+             */
+            relabelled: number;
+            /**
+             * Per Minute
+             * @description clicks a minute at work; a pause of more than a minute isn't work
+             */
+            per_minute: number | null;
+            /** @description labels that agree with the verdict, where others judged too */
+            with_verdicts: components["schemas"]["Share"];
+            /** @description labels that agree with another trainer's of the same proposal */
+            with_others: components["schemas"]["Share"];
+            /** @description known answers hit; told to the trainer in steps of five, so that none is given away */
+            gold: components["schemas"]["Share"];
+            /**
+             * Streak
+             * @description newest labels in a row that neither a verdict of several nor a correction contradicts
+             */
+            streak: number;
+            estimate: components["schemas"]["Estimate"];
         };
         /**
          * TrainerPage
@@ -5809,6 +6130,447 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["AutoApprovalRecord"];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_quality: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                experiment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LabelQuality"];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_own_figures: {
+        parameters: {
+            query?: {
+                /** @description whose */
+                trainer?: string;
+            };
+            header?: never;
+            path: {
+                experiment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TrainerFigures"];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_gold: {
+        parameters: {
+            query?: {
+                /** @description `next_cursor` of the page before; none: first page */
+                cursor?: string | null;
+                /** @description most items of a page */
+                limit?: number;
+            };
+            header?: never;
+            path: {
+                experiment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["GoldPage"];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    mark_gold: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                proposal_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["GoldMark"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The body is no JSON, or nested too deeply */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The state of things doesn't allow it; `current` and `allowed` say what does */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    unmark_gold: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                proposal_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    export_feedback: {
+        parameters: {
+            query?: {
+                /** @description csv, or jsonl: one JSON object a line */
+                format?: "csv" | "jsonl";
+            };
+            header?: never;
+            path: {
+                experiment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The table */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv; charset=utf-8": unknown;
+                    "application/x-ndjson": unknown;
                 };
             };
             /** @description A foreign page, or a foreign host name */

@@ -43,6 +43,7 @@ export function experiment(change: Partial<Experiment> = {}): Experiment {
     },
     auto_approval: null,
     auto_approval_suspended: null,
+    gold_rate: 0,
     created_at: AT,
     updated_at: AT,
     ...change,

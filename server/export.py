@@ -1,0 +1,115 @@
+"""An experiment's feedback as a table: one line for each click and each correction, in the order they came."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import AsyncIterator, Callable, Mapping, Sequence
+from typing import Any, Literal
+
+from sqlalchemy import select
+from sqlalchemy.orm import Session
+
+from server.models import FeedbackRow, ProposalRow
+from server.schemas_labels import answer_of
+from server.store import Store
+
+Form = Literal["csv", "jsonl"]
+MEDIA_TYPES: Mapping[Form, str] = {"csv": "text/csv; charset=utf-8", "jsonl": "application/x-ndjson"}
+
+COLUMNS = (
+    *("act", "feedback_id", "click_id", "at", "trainer", "kind", "answer", "label_now", "status", "undone_at"),
+    *("proposal_id", "proposal_number", "episode", "robot", "observation_id", "skill", "parameters"),
+    *("predicted_feedback", "policy_version", "verdict", "verdict_source", "close_reason", "gold", "known_answer"),
+)
+"""act: `click`, or `relabel`, whose `trainer` is who corrected it and whose `at` is when."""
+CHUNK = 500
+"""Clicks read at once: an export of any size needs little memory, and holds up nobody."""
+
+
+async def feedback(store: Store, experiment_id: int, form: Form) -> AsyncIterator[str]:
+    """The whole table, piece by piece. Practice is in it, by its `status`."""
+    if form == "csv":
+        yield _csv([dict(zip(COLUMNS, COLUMNS, strict=True))])
+    after = 0
+    while True:
+        rows, after = await store.read(_reading(experiment_id, after))
+        if not rows:
+            return
+        yield _csv(rows) if form == "csv" else "".join(json.dumps(row) + "\n" for row in rows)
+
+
+def _reading(experiment_id: int, after: int) -> Callable[[Session], tuple[list[dict[str, Any]], int]]:
+    def read(session: Session) -> tuple[list[dict[str, Any]], int]:
+        query = (
+            select(FeedbackRow, ProposalRow)
+            .join(ProposalRow, ProposalRow.id == FeedbackRow.proposal_id)
+            .where(
+                FeedbackRow.experiment_id == experiment_id,
+                FeedbackRow.id > after,
+                ProposalRow.purpose == "training",
+            )
+            .order_by(FeedbackRow.id)
+            .limit(CHUNK)
+        )
+        found = session.execute(query).all()
+        rows = [row for click, proposal in found for row in _rows(click, proposal)]
+        return rows, found[-1][0].id if found else after
+
+    return read
+
+
+def _rows(click: FeedbackRow, proposal: ProposalRow) -> list[dict[str, Any]]:
+    """The click, then its corrections. What was known of a proposal isn't told while it is open."""
+    known = proposal.known_answer if proposal.closed_at is not None else None
+    shared = {
+        "feedback_id": click.id,
+        "label_now": answer_of(click.label),
+        "status": click.status,
+        "undone_at": None if click.undone_at is None else click.undone_at.isoformat(),
+        "proposal_id": proposal.id,
+        "proposal_number": proposal.number,
+        "episode": proposal.episode.number,
+        "robot": proposal.robot,
+        "observation_id": proposal.observation.uid,
+        "skill": proposal.skill,
+        "parameters": dict(zip(proposal.parameter_names, proposal.parameters, strict=True)),
+        "predicted_feedback": proposal.predicted_feedback,
+        "policy_version": proposal.policy_version,
+        "verdict": proposal.verdict,
+        "verdict_source": proposal.verdict_source,
+        "close_reason": proposal.close_reason,
+        "gold": known is not None,
+        "known_answer": known,
+    }
+    acts = [("click", click.click_id, click.received_at, click.trainer, click.value)]
+    acts += [("relabel", each.click_id, each.at, each.trainer, each.value) for each in click.relabels]
+    made = [
+        {
+            "act": act,
+            "click_id": click_id,
+            "at": at.isoformat(),
+            "trainer": by.name,
+            "kind": by.kind,
+            "answer": answer_of(value),
+            **shared,
+        }
+        for act, click_id, at, by, value in acts
+    ]
+    return [{column: row[column] for column in COLUMNS} for row in made]
+
+
+def _csv(rows: Sequence[Mapping[str, Any]]) -> str:
+    written = io.StringIO()
+    csv.writer(written).writerows([_cell(row[column]) for column in COLUMNS] for row in rows)
+    return written.getvalue()
+
+
+def _cell(value: Any) -> Any:
+    """A name that a spreadsheet would take for a formula is written as text."""
+    if isinstance(value, dict):
+        return json.dumps(value)
+    if isinstance(value, bool):
+        return str(value).lower()
+    return f"'{value}" if isinstance(value, str) and value[:1] in ("=", "+", "-", "@") else value

@@ -1,0 +1,79 @@
+"""Label quality: known answers, everybody's figures, one's own, and the feedback as a table."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Body, Query, Response
+from fastapi.responses import StreamingResponse
+
+from server import export
+from server.errors import ServiceError
+from server.routes.dependencies import Cursor, Id, Limit, Running, errors
+from server.schemas_labels import TrainerName
+from server.schemas_quality import GoldMark, GoldPage, LabelQuality, TrainerFigures
+
+router = APIRouter(tags=["quality"])
+
+MARK: dict[str, Any] = {"it is bad": {"value": {"answer": -1}}}
+TABLE: dict[int | str, dict[str, Any]] = {
+    200: {"content": {media: {} for media in export.MEDIA_TYPES.values()}, "description": "The table"}
+}
+
+
+@router.get("/experiments/{experiment_id}/quality", responses=errors(404, 422))
+async def get_quality(service: Running, experiment_id: Id) -> LabelQuality:
+    """Everybody's figures, and how far trainers agree."""
+    return await service.store.quality.quality(experiment_id)
+
+
+@router.get("/experiments/{experiment_id}/quality/mine", responses=errors(404, 422))
+async def get_own_figures(
+    service: Running, experiment_id: Id, trainer: Annotated[TrainerName, Query(description="whose")] = "local"
+) -> TrainerFigures:
+    """One's own figures. Known answers are told in steps of five, so that no proposal is given away."""
+    found = await service.store.quality.figures_of(experiment_id, trainer)
+    if found is None:
+        raise ServiceError(404, f"{trainer} has not clicked in this experiment", remedy="judge a proposal first")
+    return found
+
+
+@router.get("/experiments/{experiment_id}/gold", responses=errors(404, 422))
+async def list_gold(service: Running, experiment_id: Id, cursor: Cursor = None, limit: Limit = 50) -> GoldPage:
+    """Closed proposals whose answer was known before they were shown, with everybody's answer; newest first."""
+    return await service.store.quality.gold(experiment_id, cursor, limit)
+
+
+@router.put("/proposals/{proposal_id}/gold", status_code=204, responses=errors(400, 404, 409, 413, 422))
+async def mark_gold(
+    service: Running, proposal_id: Id, body: Annotated[GoldMark, Body(openapi_examples=MARK)]
+) -> Response:
+    """Know the answer to a closed proposal: at the experiment's `gold_rate` it is shown again, among the others."""
+    await service.store.quality.mark_gold(proposal_id, body)
+    return Response(status_code=204)
+
+
+@router.delete("/proposals/{proposal_id}/gold", status_code=204, responses=errors(404, 422))
+async def unmark_gold(service: Running, proposal_id: Id) -> Response:
+    """Show a marked proposal no more."""
+    await service.store.quality.unmark_gold(proposal_id)
+    return Response(status_code=204)
+
+
+@router.get(
+    "/experiments/{experiment_id}/exports/feedback",
+    response_class=StreamingResponse,
+    responses={**errors(404, 422), **TABLE},
+)
+async def export_feedback(
+    service: Running,
+    experiment_id: Id,
+    form: Annotated[export.Form, Query(alias="format", description="csv, or jsonl: one JSON object a line")] = "csv",
+) -> StreamingResponse:
+    """Every click with its history: corrections, late ones, those taken back, can't tell, gold, practice."""
+    await service.store.experiment(experiment_id)
+    return StreamingResponse(
+        export.feedback(service.store, experiment_id, form),
+        media_type=export.MEDIA_TYPES[form],
+        headers={"Content-Disposition": f'attachment; filename="experiment-{experiment_id}-feedback.{form}"'},
+    )

@@ -1,0 +1,198 @@
+"""The store's part for label quality: known answers, everybody's figures and their estimates, as wire models."""
+
+from __future__ import annotations
+
+import asyncio
+from collections import defaultdict
+
+from sqlalchemy import ColumnElement, exists, func, select
+from sqlalchemy.orm import Session
+
+from server import store_gold, store_pages
+from server.agreement import agreement
+from server.database import Database
+from server.models import FeedbackRow, ProposalRow, RelabelRow, TrainerRow
+from server.models_quality import GoldMarkRow, ReliabilityRow
+from server.reliability import Reliability, Said, estimate
+from server.schemas_quality import (
+    AgreementInfo,
+    Estimate,
+    Gold,
+    GoldMark,
+    GoldPage,
+    LabelQuality,
+    TrainerFigures,
+)
+from server.store_experiments import load, now
+from server.store_labels import value_now
+from server.trainer_figures import Click, figures
+
+
+class QualityStore:
+    """Reads and writes of `Store.quality`."""
+
+    def __init__(self, database: Database) -> None:
+        self._database = database
+
+    async def mark_gold(self, proposal_id: int, body: GoldMark) -> None:
+        """Know the answer to a closed proposal. See `store_gold.mark`."""
+        await self._database.write(lambda s: store_gold.mark(s, proposal_id, body))
+
+    async def unmark_gold(self, proposal_id: int) -> None:
+        """Show it no more."""
+        await self._database.write(lambda s: store_gold.unmark(s, proposal_id))
+
+    async def gold(self, experiment_id: int, cursor: str | None, limit: int) -> GoldPage:
+        """Closed proposals whose answer was known, newest first."""
+
+        def find(session: Session) -> tuple[list[Gold], str | None]:
+            load(session, experiment_id)
+            query = select(ProposalRow).where(*_closed_gold(experiment_id))
+
+            def wire(row: ProposalRow) -> Gold:
+                return store_gold.gold(session, row)
+
+            return store_pages.page(session, query, ProposalRow.id, wire, cursor=cursor, limit=limit)
+
+        items, after = await self._database.read(find)
+        return GoldPage(items=items, next_cursor=after)
+
+    async def quality(self, experiment_id: int) -> LabelQuality:
+        """Everybody's figures, and how far they agree."""
+
+        def find(session: Session) -> tuple[list[Click], dict[int, Estimate], int]:
+            load(session, experiment_id)
+            gold = session.scalar(select(func.count(ProposalRow.id)).where(*_closed_gold(experiment_id))) or 0
+            return _clicks(session, experiment_id), _estimates(session, experiment_id), gold
+
+        clicks, estimates, gold = await self._database.read(find)
+        agreed = await asyncio.to_thread(_agreement, clicks)
+        return LabelQuality(
+            experiment_id=experiment_id, agreement=agreed, gold=gold, trainers=figures(clicks, estimates)
+        )
+
+    async def figures_of(self, experiment_id: int, trainer: str) -> TrainerFigures | None:
+        """One trainer's own, with known answers in steps only; None where they haven't clicked."""
+
+        def find(session: Session) -> list[TrainerFigures]:
+            load(session, experiment_id)
+            clicks, estimates = _clicks(session, experiment_id), _estimates(session, experiment_id)
+            return figures(clicks, estimates, hide_gold=True)
+
+        everybodys = await self._database.read(find)
+        return next((each for each in everybodys if each.trainer == trainer and each.kind == "person"), None)
+
+    async def measure(self, experiment_id: int) -> bool:
+        """Estimate each trainer's reliability anew, and store it; False where there is nothing to compare yet."""
+        clicks, known = await self._database.read(
+            lambda s: (_clicks(s, experiment_id), _known_answers(s, experiment_id))
+        )
+        said = [Said(c.proposal, c.trainer, c.value) for c in clicks if c.value is not None and c.status != "practice"]
+        if len({each.trainer for each in said}) < 2 and not known:
+            return False
+        estimated = await asyncio.to_thread(estimate, said, known)
+
+        def keep(session: Session) -> None:
+            for trainer_id, each in estimated.trainers.items():
+                session.merge(_row(experiment_id, trainer_id, each))
+
+        await self._database.write(keep)
+        return True
+
+
+def weights(session: Session, experiment_id: int) -> dict[str, float]:
+    """Trainer -> probability that their next label is true, as last estimated. Whoever is missing: 2/3 (`UNKNOWN`)."""
+    rows = session.scalars(select(ReliabilityRow).where(ReliabilityRow.experiment_id == experiment_id))
+    return {row.trainer.name: row.weight for row in rows}
+
+
+def _closed_gold(experiment_id: int) -> tuple[ColumnElement[bool], ...]:
+    return (
+        ProposalRow.experiment_id == experiment_id,
+        ProposalRow.known_answer.is_not(None),
+        ProposalRow.closed_at.is_not(None),
+    )
+
+
+def _clicks(session: Session, experiment_id: int) -> list[Click]:
+    """Those that weren't taken back, by id. The newest word of a trainer who clicked late twice is the last one."""
+    relabelled = exists().where(RelabelRow.feedback_id == FeedbackRow.id).correlate(FeedbackRow)
+    query = (
+        select(
+            FeedbackRow.proposal_id,
+            FeedbackRow.trainer_id,
+            TrainerRow.name,
+            TrainerRow.kind,
+            FeedbackRow.value,
+            value_now(),
+            FeedbackRow.status,
+            FeedbackRow.received_at,
+            relabelled,
+            ProposalRow.verdict,
+            ProposalRow.known_answer,
+        )
+        .join(ProposalRow, ProposalRow.id == FeedbackRow.proposal_id)
+        .join(TrainerRow, TrainerRow.id == FeedbackRow.trainer_id)
+        .where(
+            FeedbackRow.experiment_id == experiment_id,
+            FeedbackRow.undone_at.is_(None),
+            ProposalRow.purpose == "training",
+        )
+        .order_by(FeedbackRow.id)
+    )
+    return [
+        Click(proposal, who, name, kind, value, label, status, at, bool(corrected), verdict, known)
+        for proposal, who, name, kind, value, label, status, at, corrected, verdict, known in session.execute(query)
+    ]
+
+
+def _known_answers(session: Session, experiment_id: int) -> dict[int, int]:
+    """Of gold proposals, and of those that an operator has marked: what was said of them before counts as well."""
+    gold = select(ProposalRow.id, ProposalRow.known_answer).where(*_closed_gold(experiment_id))
+    marked = (
+        select(GoldMarkRow.proposal_id, GoldMarkRow.answer)
+        .join(ProposalRow, ProposalRow.id == GoldMarkRow.proposal_id)
+        .where(ProposalRow.experiment_id == experiment_id)
+    )
+    rows = [row for query in (gold, marked) for row in session.execute(query)]
+    return {int(proposal): int(answer) for proposal, answer in rows if answer is not None}
+
+
+def _estimates(session: Session, experiment_id: int) -> dict[int, Estimate]:
+    rows = session.scalars(select(ReliabilityRow).where(ReliabilityRow.experiment_id == experiment_id))
+    return {
+        row.trainer_id: Estimate(
+            accuracy=row.accuracy,
+            interval=None if row.low is None or row.high is None else (row.low, row.high),
+            informative=row.informative,
+            weight=row.weight,
+            at=row.at,
+        )
+        for row in rows
+    }
+
+
+def _row(experiment_id: int, trainer_id: int, each: Reliability) -> ReliabilityRow:
+    low, high = each.interval or (None, None)
+    return ReliabilityRow(
+        experiment_id=experiment_id,
+        trainer_id=trainer_id,
+        weight=each.weight,
+        accuracy=each.accuracy,
+        low=low,
+        high=high,
+        labels=each.labels,
+        informative=each.informative,
+        at=now(),
+    )
+
+
+def _agreement(clicks: list[Click]) -> AgreementInfo:
+    table: defaultdict[int, dict[int, int]] = defaultdict(dict)
+    for click in clicks:
+        if click.value is not None and click.status != "practice":
+            table[click.proposal][click.trainer] = click.value
+    found = agreement(table)
+    return AgreementInfo(
+        alpha=found.alpha, proposals=found.proposals, labels=found.labels, trainers=found.trainers, why=found.why
+    )
