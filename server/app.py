@@ -16,7 +16,18 @@ from starlette.convertors import Convertor, register_url_convertor
 from server import errors
 from server.openapi import describe
 from server.origin import Guard
-from server.routes import catalogue, experiments, feedback, proposals, quality, records, stream, studies, trust
+from server.routes import (
+    catalogue,
+    experiments,
+    feedback,
+    incidents,
+    proposals,
+    quality,
+    records,
+    stream,
+    studies,
+    trust,
+)
 from server.schemas_problems import Health, Readiness
 from server.service import Service, create_first, opened
 from server.settings import Settings
@@ -57,7 +68,7 @@ def create_app(settings: Settings | None = None, service: Service | None = None)
         separate_input_output_schemas=False,
     )
     app.state.boot_id = secrets.token_hex(8)
-    for part in (catalogue, experiments, proposals, feedback, records, trust, quality, studies, stream):
+    for part in (catalogue, experiments, proposals, feedback, incidents, records, trust, quality, studies, stream):
         app.include_router(part.router, prefix=API)
     stream.document(app)
     errors.install(app)

@@ -253,7 +253,10 @@ class Hub:
     async def _halt(self, experiment_id: int) -> Experiment:
         """Emergency stop: the robot first, then the database, then everyone is told."""
         runner = self._runners.get(experiment_id) or await self._runner(experiment_id)
+        halted = runner.experiment.halted
         runner.stop()
+        if not halted:  # a stop comes by every way there is
+            runner.witness.tell("halt", "emergency stop")
         try:
             experiment = await self.store.halt(experiment_id)
         except StoreError as error:

@@ -18,7 +18,7 @@ from server.schemas import (
     RowId,
     Wire,
 )
-from server.schemas_labels import Answer, ClickId, RelabelCreate, TrainerName
+from server.schemas_labels import Answer, ClickId, EstimateShown, RelabelCreate, TrainerName
 from server.schemas_problems import Problem
 
 # --- stream: server to client -------------------------------------------------------------------------------------
@@ -209,6 +209,7 @@ class ClientFeedback(Wire):
     proposal_id: RowId
     value: Answer
     trainer: TrainerName = "local"
+    estimate_shown: EstimateShown = None
 
 
 class ClientRelabel(RelabelCreate):

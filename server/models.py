@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from datetime import UTC, datetime
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from sqlalchemy import (
     JSON,
@@ -20,6 +20,9 @@ from sqlalchemy import (
     text,
 )
 from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column, relationship
+
+if TYPE_CHECKING:
+    from server.models_incidents import ReportRow, ViolationRow
 
 NAMING = {
     "ix": "ix_%(table_name)s_%(column_0_N_name)s",
@@ -58,7 +61,8 @@ class Base(DeclarativeBase):
     }
 
 
-def _one_of(column: str, *values: str) -> CheckConstraint:
+def one_of(column: str, *values: str) -> CheckConstraint:
+    """The column holds one of these words."""
     listed = ", ".join(f"'{value}'" for value in values)
     return CheckConstraint(f"{column} IN ({listed})", name=column)
 
@@ -74,9 +78,9 @@ class ExperimentRow(Base):
 
     __tablename__ = "experiment"
     __table_args__ = (
-        _one_of("lifecycle", "created", "running", "paused", "finished", "failed", "archived"),
-        _one_of("mode", "propose_only", "execute_approved"),
-        _one_of("aggregation", "first", "majority", "unanimous"),
+        one_of("lifecycle", "created", "running", "paused", "finished", "failed", "archived"),
+        one_of("mode", "propose_only", "execute_approved"),
+        one_of("aggregation", "first", "majority", "unanimous"),
     )
 
     id: Mapped[int] = mapped_column(primary_key=True)
@@ -127,8 +131,8 @@ class EpisodeRow(Base):
     __tablename__ = "episode"
     __table_args__ = (
         UniqueConstraint("experiment_id", "number"),
-        _one_of("outcome", "success", "horizon", "violation", "reset", "interrupted"),
-        _one_of("purpose", "training", "evaluation"),
+        one_of("outcome", "success", "horizon", "violation", "reset", "interrupted"),
+        one_of("purpose", "training", "evaluation"),
         CheckConstraint("(outcome IS NULL) = (ended_at IS NULL)", name="ended"),
         _one_a_robot("uq_episode_open", "ended_at IS NULL"),
     )
@@ -163,9 +167,9 @@ class ProposalRow(Base):
     __tablename__ = "proposal"
     __table_args__ = (
         UniqueConstraint("experiment_id", "number"),
-        _one_of("purpose", "training", "evaluation"),
-        _one_of("verdict", "good", "neutral", "bad"),
-        _one_of("close_reason", "judged", "cant_tell", "timed_out", "withdrawn", "interrupted"),
+        one_of("purpose", "training", "evaluation"),
+        one_of("verdict", "good", "neutral", "bad"),
+        one_of("close_reason", "judged", "cant_tell", "timed_out", "withdrawn", "interrupted"),
         CheckConstraint("(close_reason IS NULL) = (closed_at IS NULL)", name="closed"),
         CheckConstraint(
             "(verdict IS NULL AND (close_reason IS NULL OR close_reason <> 'judged'))"
@@ -173,7 +177,7 @@ class ProposalRow(Base):
             name="judged",
         ),
         CheckConstraint("(gate_allowed IS NULL) = (gate_reason IS NULL)", name="gate"),
-        _one_of("verdict_source", "trainers", "critic", "evaluation"),
+        one_of("verdict_source", "trainers", "critic", "evaluation"),
         _one_a_robot("uq_proposal_open", "closed_at IS NULL"),
     )
 
@@ -214,7 +218,7 @@ class TrainerRow(Base):
     """Someone who judges."""
 
     __tablename__ = "trainer"
-    __table_args__ = (UniqueConstraint("name", "kind"), _one_of("kind", "person", "teacher", "evaluation"))
+    __table_args__ = (UniqueConstraint("name", "kind"), one_of("kind", "person", "teacher", "evaluation"))
 
     id: Mapped[int] = mapped_column(primary_key=True)
     name: Mapped[str]
@@ -229,7 +233,7 @@ class FeedbackRow(Base):
     __table_args__ = (
         UniqueConstraint("click_id"),
         CheckConstraint("value IN (-1, 0, 1)", name="value"),
-        _one_of("status", "stored", "late", "practice"),
+        one_of("status", "stored", "late", "practice"),
         Index(
             "uq_feedback_one_vote",
             "proposal_id",
@@ -250,6 +254,7 @@ class FeedbackRow(Base):
     status: Mapped[str]
     received_at: Mapped[datetime]
     undone_at: Mapped[datetime | None]
+    estimate_shown: Mapped[bool | None]
 
     trainer: Mapped[TrainerRow] = relationship(lazy="joined", innerjoin=True)
     relabels: Mapped[list[RelabelRow]] = relationship(lazy="selectin", order_by="RelabelRow.id")
@@ -286,7 +291,7 @@ class ExecutionRow(Base):
     __tablename__ = "execution"
     __table_args__ = (
         UniqueConstraint("proposal_id"),
-        _one_of("outcome", "succeeded", "failed", "stopped", "interrupted"),
+        one_of("outcome", "succeeded", "failed", "stopped", "interrupted"),
         CheckConstraint("(outcome IS NULL) = (ended_at IS NULL)", name="ended"),
         _one_a_robot("uq_execution_running", "ended_at IS NULL"),
         Index("ix_execution_experiment_id_id", "experiment_id", "id"),
@@ -304,20 +309,8 @@ class ExecutionRow(Base):
     task_success: Mapped[bool] = mapped_column(default=False)
 
     proposal: Mapped[ProposalRow] = relationship(lazy="joined", innerjoin=True)
-
-
-class ViolationRow(Base):
-    """A safety violation seen in an execution."""
-
-    __tablename__ = "violation"
-    __table_args__ = (_one_of("kind", "damage", "manual_reset"),)
-
-    id: Mapped[int] = mapped_column(primary_key=True)
-    experiment_id: Mapped[int] = mapped_column(ForeignKey("experiment.id"), index=True)
-    execution_id: Mapped[int] = mapped_column(ForeignKey("execution.id"), index=True)
-    kind: Mapped[str]
-    detail: Mapped[str] = mapped_column(Text)
-    at: Mapped[datetime]
+    violations: Mapped[list[ViolationRow]] = relationship(lazy="selectin", order_by="ViolationRow.id", viewonly=True)
+    reports: Mapped[list[ReportRow]] = relationship(lazy="selectin", order_by="ReportRow.id", viewonly=True)
 
 
 class MetricRow(Base):

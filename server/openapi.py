@@ -15,13 +15,21 @@ TAGS = [
     {"name": "proposals", "description": "Skill calls that the agent suggests, with the pictures they are drawn on"},
     {"name": "feedback", "description": "Clicks"},
     {"name": "records", "description": "What an experiment leaves behind"},
+    {"name": "incidents", "description": "What went wrong, as people and cameras saw it"},
     {"name": "trust", "description": "How far the critic may be trusted"},
     {"name": "quality", "description": "How far labels may be trusted: figures, agreement, known answers, exports"},
     {"name": "studies", "description": "Algorithms x tasks x seeds, run by `seed study`"},
     {"name": "stream", "description": "Messages of the WebSocket /api/v1/experiments/{id}/stream"},
     {"name": "probes", "description": "For whoever runs the service"},
 ]
-REQUESTS = {"ExperimentCreate", "ExperimentUpdate", "FeedbackCreate", "EvaluationCreate", "AutoApproval"}
+REQUESTS = {
+    "ExperimentCreate",
+    "ExperimentUpdate",
+    "FeedbackCreate",
+    "ReportCreate",
+    "EvaluationCreate",
+    "AutoApproval",
+}
 """Schemas whose defaults may be left out; an answer carries every field, null where there is nothing."""
 
 

@@ -17,9 +17,10 @@ from agent.algorithm import AgentError
 from robot_adapters.base import AdapterError
 from server.course import Course, Work
 from server.crew import Crew
+from server.images import Images
 from server.ledger import Ledger
 from server.lifecycle import Verb
-from server.messages import StreamEvent
+from server.messages import FrameHeader, StreamEvent
 from server.publisher import Publisher
 from server.quota import Quota
 from server.rollouts import roll_out
@@ -29,6 +30,7 @@ from server.standing import Standing
 from server.station import Shared, Station
 from server.store import Conflict, Store, StoreError
 from server.training import train, train_in_step
+from server.witness import Witness
 from server.worker import WorkerDied, WorkerError
 
 log = logging.getLogger(__name__)
@@ -43,13 +45,12 @@ class Runner:
     def __init__(self, experiment: Experiment, store: Store, settings: Settings, publisher: Publisher) -> None:
         self._store = store
         self._publisher = publisher
+        self.witness = Witness(experiment.id, store, Images(settings.data_dir))
         self.crew = Crew(
             experiment,
             store,
             settings,
-            on_frame=(lambda header, jpeg: publisher.publish_frame(experiment.id, header, jpeg))
-            if publisher.shows_frames
-            else None,
+            on_frame=self._show if publisher.shows_frames else None,
             on_change=self._publish,
         )
         self.standing = Standing(experiment, store, publish=self._publish, halted=lambda: self.crew.halted)
@@ -71,6 +72,7 @@ class Runner:
             self._publish,
             ask_operator=self._ask_operator,
             stop=self.stop,
+            witness=self.witness,
         )
         self.stations = tuple(Station(robot, shared) for robot in self.crew.robots)
         self._course = Course(f"experiment {experiment.id}")
@@ -184,6 +186,7 @@ class Runner:
         await self._course.end(grace)
         await self._ledger.settled()
         await self.crew.close()
+        await self.witness.settled()
         await self.standing.owed.close()
 
     def changed(self, experiment: Experiment) -> None:
@@ -307,6 +310,10 @@ class Runner:
     def _wake(self) -> None:
         for station in self.stations:
             station.desk.wake()
+
+    def _show(self, header: FrameHeader, jpeg: bytes) -> None:
+        self.witness.see(header, jpeg)
+        self._publisher.publish_frame(self.experiment.id, header, jpeg)
 
     def _publish(self, event: StreamEvent) -> None:
         self._publisher.publish(self.experiment.id, event)

@@ -11,7 +11,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, StrictInt
 
-from server.schemas_labels import Answer, ClickId, Relabel, TrainerName, label_of
+from server.schemas_incidents import Report, Violation
+from server.schemas_labels import Answer, ClickId, EstimateShown, Relabel, TrainerName, label_of
 from server.schemas_quality import GoldRate
 from server.schemas_trust import Audit, AutoApproval, Suspended, Uncertainty, VerdictSource
 
@@ -275,6 +276,7 @@ class FeedbackCreate(Wire):
     click_id: ClickId
     value: Answer
     trainer: TrainerName = "local"
+    estimate_shown: EstimateShown = None
 
     @property
     def label(self) -> int | None:
@@ -303,6 +305,7 @@ class Feedback(Wire):
     status: FeedbackStatus
     received_at: datetime
     undone_at: datetime | None = None
+    estimate_shown: EstimateShown = None
 
 
 class FeedbackPage(Page):
@@ -335,6 +338,8 @@ class Execution(Wire):
     end_reason: Annotated[str | None, Field(description="arrived, timeout, stalled, force_limit, stopped, ...")] = None
     low_level_steps: int = 0
     task_success: bool = False
+    violations: list[Violation] = []
+    reports: Annotated[list[Report], Field(description="what people saw, oldest first; the newest counts")] = []
 
 
 class ExecutionPage(Page):

@@ -39,6 +39,12 @@ ClickId = Annotated[
 TrainerName = Annotated[str, Field(min_length=1, max_length=64, pattern=r"^[^\x00-\x1f\x7f]+$")]
 
 
+EstimateShown = Annotated[
+    bool | None,
+    Field(description="whether the page showed the predicted feedback when it was clicked; null: it wasn't told"),
+]
+
+
 def label_of(answer: Answer) -> int | None:
     """As it is stored and added up: -1, 0 or +1; None for `cant_tell`."""
     return None if answer == CANT_TELL else int(answer)

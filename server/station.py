@@ -22,6 +22,7 @@ from server.standing import Standing
 from server.store import Store
 from server.store_values import EpisodeOutcome, NewProposal
 from server.violations import Response, respond
+from server.witness import Witness
 from server.worker import WorkerDied
 
 AskOperator = Callable[[Literal["halt", "pause"], Sequence[str]], Awaitable[None]]
@@ -40,6 +41,7 @@ class Shared:
     ask_operator: AskOperator
     stop: Callable[[], None]
     """Emergency stop of every robot of the experiment."""
+    witness: Witness
     beginning: asyncio.Lock = field(default_factory=asyncio.Lock)
     """Episodes begin one after another: each has a number and a seed of its own."""
 
@@ -177,6 +179,8 @@ class Station:
         done = await self.acting.move(judged, execution, heed=self._latch_after_damage, before=before)
         self._seen = None
         self._executed += 1
+        for kind, detail in done.violations:
+            self._shared.witness.tell(kind, detail, execution_id=execution.id, robot=self.robot.index)
         response = self._response(done)
         if response in (Response.HALT, Response.PAUSE):
             verb: Literal["halt", "pause"] = "halt" if response is Response.HALT else "pause"

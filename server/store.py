@@ -15,10 +15,12 @@ from sqlalchemy.orm import Session
 from robot_adapters.base import SafetyViolation
 from server import (
     schemas,
+    schemas_incidents,
     schemas_labels,
     schemas_records,
     store_executions,
     store_experiments,
+    store_incidents,
     store_labels,
     store_proposals,
     store_records,
@@ -214,6 +216,35 @@ class Store(Reads):
             return decision, wire.execution(row) if row is not None else None
 
         return await self._write(begin)
+
+    async def report_execution(
+        self, execution_id: int, body: schemas_incidents.ReportCreate
+    ) -> tuple[schemas.Execution, bool]:
+        """Keep what somebody saw an execution do; the second value: this very report was stored before."""
+
+        def report(session: Session) -> tuple[schemas.Execution, bool]:
+            row, duplicate = store_incidents.report(session, execution_id, body)
+            return wire.execution(row), duplicate
+
+        return await self._write(report)
+
+    async def add_incident(
+        self,
+        experiment_id: int,
+        *,
+        execution_id: int | None,
+        kind: str,
+        detail: str,
+        frames: Sequence[dict[str, Any]],
+    ) -> schemas_incidents.Incident:
+        """Keep an incident with the pictures of the seconds before."""
+        return await self._write(
+            lambda s: wire.incident(
+                store_incidents.add_incident(
+                    s, experiment_id, execution_id=execution_id, kind=kind, detail=detail, frames=frames
+                )
+            )
+        )
 
     async def end_execution(
         self,

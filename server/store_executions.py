@@ -9,7 +9,8 @@ from sqlalchemy.orm import Session
 
 from robot_adapters.base import SafetyViolation
 from server import gate, schemas, schemas_trust, store_trust
-from server.models import ExecutionRow, ExperimentRow, ProposalRow, ViolationRow
+from server.models import ExecutionRow, ExperimentRow, ProposalRow
+from server.models_incidents import ViolationRow
 from server.store_errors import Conflict, NotFound
 from server.store_experiments import journal, load, now
 from server.store_proposals import load_proposal
@@ -106,6 +107,7 @@ def end(
         experiment.violations += len(violations)
         experiment.updated_at = at
     session.flush()
+    session.refresh(row, ["violations"])
     journal(
         session,
         row.experiment_id,

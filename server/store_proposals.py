@@ -138,7 +138,7 @@ def submit(session: Session, proposal_id: int, click: schemas.FeedbackCreate, ki
     experiment = load(session, proposal.experiment_id)
     if not late:
         _must_have_vote(session, experiment, proposal, by)
-    row = _store(session, proposal, by, click.click_id, click.label, late=late)
+    row = _store(session, proposal, by, click.click_id, click.label, late=late, estimate_shown=click.estimate_shown)
     experiment.updated_at = now()
     if late:
         experiment.late += 1
@@ -336,7 +336,14 @@ def _must_have_vote(session: Session, experiment: ExperimentRow, proposal: Propo
 
 
 def _store(
-    session: Session, proposal: ProposalRow, trainer: TrainerRow, click_id: str, value: int | None, *, late: bool
+    session: Session,
+    proposal: ProposalRow,
+    trainer: TrainerRow,
+    click_id: str,
+    value: int | None,
+    *,
+    late: bool,
+    estimate_shown: bool | None = None,
 ) -> FeedbackRow:
     row = FeedbackRow(
         click_id=click_id,
@@ -347,6 +354,7 @@ def _store(
         status="late" if late else "stored",
         received_at=now(),
         relabels=[],
+        estimate_shown=estimate_shown,
     )
     session.add(row)
     session.flush()

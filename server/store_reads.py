@@ -11,6 +11,7 @@ from sqlalchemy.orm import Session
 from server import (
     models,
     schemas,
+    schemas_incidents,
     schemas_records,
     store_experiments,
     store_labels,
@@ -21,6 +22,7 @@ from server import (
 )
 from server import store_wire as wire
 from server.database import Database
+from server.models_incidents import IncidentRow
 from server.schemas_catalogue import TrainerPage
 from server.schemas_trust import AutoApprovalRecord, Calibration
 from server.store_errors import NotFound
@@ -121,6 +123,18 @@ class Reads:
         query = select(models.ExecutionRow).where(models.ExecutionRow.experiment_id == experiment_id)
         items, after = await self._page(query, models.ExecutionRow.id, wire.execution, cursor, limit, of=experiment_id)
         return schemas.ExecutionPage(items=items, next_cursor=after)
+
+    async def incident(self, incident_id: int) -> schemas_incidents.Incident:
+        """One incident."""
+        return await self._one(IncidentRow, incident_id, "incident", wire.incident)
+
+    async def incidents(
+        self, experiment_id: int, cursor: str | None = None, limit: int = 20
+    ) -> schemas_incidents.IncidentPage:
+        """Newest first."""
+        query = select(IncidentRow).where(IncidentRow.experiment_id == experiment_id)
+        items, after = await self._page(query, IncidentRow.id, wire.incident, cursor, limit, of=experiment_id)
+        return schemas_incidents.IncidentPage(items=items, next_cursor=after)
 
     async def running_executions(self, experiment_id: int) -> list[schemas.Execution]:
         """The executions without an outcome, at most one a robot, oldest first."""

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from server import models, schemas, schemas_records
+from server.models_incidents import IncidentRow
 from server.schemas_catalogue import Trainer
+from server.schemas_incidents import Incident, Report, Violation
 from server.schemas_labels import Relabel, answer_of
 from server.schemas_trust import AutoApproval, VerdictSource
 
@@ -94,6 +96,7 @@ def feedback(row: models.FeedbackRow) -> schemas.Feedback:
         status=schemas.FeedbackStatus(row.status),
         received_at=row.received_at,
         undone_at=row.undone_at,
+        estimate_shown=row.estimate_shown,
     )
 
 
@@ -112,6 +115,35 @@ def execution(row: models.ExecutionRow) -> schemas.Execution:
         end_reason=row.end_reason,
         low_level_steps=row.low_level_steps,
         task_success=row.task_success,
+        violations=[Violation.model_validate({"kind": v.kind, "detail": v.detail}) for v in row.violations],
+        reports=[
+            Report.model_validate(
+                {
+                    "report_id": r.report_id,
+                    "outcome": r.outcome,
+                    "note": r.note,
+                    "trainer": r.trainer.name,
+                    "at": r.at,
+                }
+            )
+            for r in row.reports
+        ],
+    )
+
+
+def incident(row: IncidentRow) -> Incident:
+    """Each picture with the path under which it can be had."""
+    frames = [{**frame, "url": f"/api/v1/incidents/{row.id}/frames/{index}"} for index, frame in enumerate(row.frames)]
+    return Incident.model_validate(
+        {
+            "id": row.id,
+            "experiment_id": row.experiment_id,
+            "execution_id": row.execution_id,
+            "kind": row.kind,
+            "detail": row.detail,
+            "at": row.at,
+            "frames": frames,
+        }
     )
 
 

@@ -256,7 +256,12 @@ class Connection:
                 correction = RelabelCreate(click_id=message.click_id, value=message.value, trainer=message.trainer)
                 feedback, _ = await self._hub.relabel(message.feedback_id, correction, self._experiment_id)
             else:
-                click = FeedbackCreate(click_id=message.click_id, value=message.value, trainer=message.trainer)
+                click = FeedbackCreate(
+                    click_id=message.click_id,
+                    value=message.value,
+                    trainer=message.trainer,
+                    estimate_shown=message.estimate_shown,
+                )
                 feedback, _ = await self._hub.feedback(message.proposal_id, click, experiment_id=self._experiment_id)
         except Exception as error:  # noqa: BLE001  every error goes back to the viewer in one shape; the stream lives on
             self._answer(Refused(request_id=_id_of(message), problem=problem_of(error)))

@@ -110,6 +110,7 @@ export function feedback(proposalId: number, change: Partial<Feedback> = {}): Fe
     status: "stored",
     received_at: AT,
     undone_at: null,
+    estimate_shown: null,
     ...change,
   };
 }
@@ -128,6 +129,8 @@ export function execution(id: number, change: Partial<Execution> = {}): Executio
     end_reason: null,
     low_level_steps: 0,
     task_success: false,
+    violations: [],
+    reports: [],
     ...change,
   };
 }
