@@ -21,6 +21,7 @@ from server.routes import (
     experiments,
     feedback,
     incidents,
+    practice,
     proposals,
     quality,
     records,
@@ -68,7 +69,19 @@ def create_app(settings: Settings | None = None, service: Service | None = None)
         separate_input_output_schemas=False,
     )
     app.state.boot_id = secrets.token_hex(8)
-    for part in (catalogue, experiments, proposals, feedback, incidents, records, trust, quality, studies, stream):
+    for part in (
+        catalogue,
+        experiments,
+        proposals,
+        feedback,
+        incidents,
+        records,
+        trust,
+        quality,
+        practice,
+        studies,
+        stream,
+    ):
         app.include_router(part.router, prefix=API)
     stream.document(app)
     errors.install(app)

@@ -200,7 +200,7 @@ class Desk:
 
     def _take(self, submission: Submission) -> None:
         feedback, closed = submission.feedback, submission.closed
-        if feedback.status is FeedbackStatus.LATE:
+        if feedback.status is not FeedbackStatus.STORED:
             self._publish(FeedbackStored(feedback=feedback, undoable=False))
             return
         proposal = closed if closed is not None else self.open

@@ -17,6 +17,7 @@ TAGS = [
     {"name": "records", "description": "What an experiment leaves behind"},
     {"name": "incidents", "description": "What went wrong, as people and cameras saw it"},
     {"name": "trust", "description": "How far the critic may be trusted"},
+    {"name": "practice", "description": "Proposals with known answers, corrected at once"},
     {"name": "quality", "description": "How far labels may be trusted: figures, agreement, known answers, exports"},
     {"name": "studies", "description": "Algorithms x tasks x seeds, run by `seed study`"},
     {"name": "stream", "description": "Messages of the WebSocket /api/v1/experiments/{id}/stream"},

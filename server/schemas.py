@@ -13,7 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, StrictInt
 
 from server.schemas_incidents import Report, Violation
 from server.schemas_labels import Answer, ClickId, EstimateShown, Relabel, TrainerName, label_of
-from server.schemas_quality import GoldRate
+from server.schemas_quality import GoldRate, PracticeRequired
 from server.schemas_trust import Audit, AutoApproval, Suspended, Uncertainty, VerdictSource
 
 
@@ -123,6 +123,7 @@ class ExperimentCreate(Wire):
     ] = None
     auto_approval: AutoApproval | None = None
     gold_rate: GoldRate = 0.0
+    practice_required: PracticeRequired | None = None
 
 
 class ExperimentUpdate(Wire):
@@ -133,6 +134,7 @@ class ExperimentUpdate(Wire):
     feedback_timeout: Annotated[float | None, Field(gt=0, le=86400)] = None
     auto_approval: AutoApproval | None = None
     gold_rate: GoldRate | None = None
+    practice_required: PracticeRequired | None = None
 
 
 class Experiment(Wire):
@@ -161,6 +163,7 @@ class Experiment(Wire):
     auto_approval: AutoApproval | None = None
     auto_approval_suspended: Suspended = None
     gold_rate: float = 0.0
+    practice_required: PracticeRequired | None = None
     counters: Counters
     created_at: datetime
     updated_at: datetime
@@ -285,10 +288,14 @@ class FeedbackCreate(Wire):
 
 
 class FeedbackStatus(StrEnum):
-    """What became of a click: it counted, or it came after the proposal had closed and decides nothing."""
+    """What became of a click: it counted, it came after the proposal had closed, or its trainer has to practise first.
+
+    Those that don't count are kept, and decide and teach nothing.
+    """
 
     STORED = "stored"
     LATE = "late"
+    PRACTICE = "practice"
 
 
 class Feedback(Wire):

@@ -8,7 +8,7 @@ from typing import Any
 from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
-from server import aggregation, lifecycle, schemas, schemas_trust, store_gold
+from server import aggregation, lifecycle, schemas, schemas_trust, store_gold, store_practice
 from server.models import (
     EvaluationRow,
     ExecutionRow,
@@ -71,7 +71,8 @@ def open_proposal(session: Session, new: NewProposal) -> ProposalRow:
         episode=episode,
         number=number,
         purpose=new.purpose,
-        electorate=list(new.electorate),
+        # who has to practise first has no vote that anybody could wait for
+        electorate=[name for name in new.electorate if store_practice.may_count(session, experiment, name)],
         opened_at=now(),
         known_answer=known.answer if known is not None else None,
         gold_of=again.id if again is not None else None,
@@ -136,9 +137,14 @@ def submit(session: Session, proposal_id: int, click: schemas.FeedbackCreate, ki
     late = proposal.closed_at is not None
     by = trainer(session, click.trainer, kind)
     experiment = load(session, proposal.experiment_id)
-    if not late:
+    counts = kind != "person" or store_practice.may_count(session, experiment, by.name)
+    if counts and not late:
         _must_have_vote(session, experiment, proposal, by)
-    row = _store(session, proposal, by, click.click_id, click.label, late=late, estimate_shown=click.estimate_shown)
+    status = "practice" if not counts else "late" if late else "stored"
+    shown = click.estimate_shown
+    row = _store(session, proposal, by, click.click_id, click.label, status=status, estimate_shown=shown)
+    if not counts:
+        return Submission(feedback_wire(row), duplicate=False)
     experiment.updated_at = now()
     if late:
         experiment.late += 1
@@ -167,7 +173,9 @@ def approve_evaluation(session: Session, proposal_id: int) -> ProposalRow:
     proposal = load_proposal(session, proposal_id)
     if proposal.purpose != "evaluation" or proposal.closed_at is not None:
         raise Conflict("only an open proposal of an evaluation can be approved by it", remedy="submit feedback instead")
-    _store(session, proposal, trainer(session, "evaluation", "evaluation"), f"evaluation-{proposal_id}", 1, late=False)
+    _store(
+        session, proposal, trainer(session, "evaluation", "evaluation"), f"evaluation-{proposal_id}", 1, status="stored"
+    )
     judge(proposal, schemas.Verdict.GOOD, schemas_trust.VerdictSource.EVALUATION)
     session.flush()
     return proposal
@@ -342,7 +350,7 @@ def _store(
     click_id: str,
     value: int | None,
     *,
-    late: bool,
+    status: str,
     estimate_shown: bool | None = None,
 ) -> FeedbackRow:
     row = FeedbackRow(
@@ -351,7 +359,7 @@ def _store(
         proposal_id=proposal.id,
         trainer=trainer,
         value=value,
-        status="late" if late else "stored",
+        status=status,
         received_at=now(),
         relabels=[],
         estimate_shown=estimate_shown,

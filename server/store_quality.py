@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import asyncio
 from collections import defaultdict
+from typing import Any
 
 from sqlalchemy import ColumnElement, exists, func, select
 from sqlalchemy.orm import Session
 
-from server import store_gold, store_pages
+from server import store_gold, store_pages, store_practice
 from server.agreement import agreement
 from server.database import Database
 from server.models import FeedbackRow, ProposalRow, RelabelRow, TrainerRow
-from server.models_quality import GoldMarkRow, ReliabilityRow
+from server.models_quality import GoldMarkRow, PracticeRow, ReliabilityRow
 from server.reliability import Reliability, Said, estimate
+from server.schemas_practice import PracticeAnswer, PracticeProgress
 from server.schemas_quality import (
     AgreementInfo,
     Estimate,
@@ -23,6 +25,7 @@ from server.schemas_quality import (
     LabelQuality,
     TrainerFigures,
 )
+from server.store_errors import NotFound
 from server.store_experiments import load, now
 from server.store_labels import value_now
 from server.trainer_figures import Click, figures
@@ -98,6 +101,33 @@ class QualityStore:
 
         await self._database.write(keep)
         return True
+
+    async def practice_place(self, experiment_id: int, trainer: str) -> tuple[int, int, PracticeRow | None]:
+        """The trainer's id, the number of their next practice proposal, and the one that is open, if any."""
+        return await self._database.write(lambda s: store_practice.place(s, experiment_id, trainer))
+
+    async def open_practice(self, experiment_id: int, trainer: str, number: int, card: dict[str, Any]) -> PracticeRow:
+        """Put a practice proposal before a trainer; one that is open stays."""
+        return await self._database.write(lambda s: store_practice.open_card(s, experiment_id, trainer, number, card))
+
+    async def answer_practice(self, practice_id: int, body: PracticeAnswer) -> PracticeRow:
+        """Store the answer, once; whoever passes by it is qualified from now on."""
+        return await self._database.write(lambda s: store_practice.answer(s, practice_id, body))
+
+    async def practice(self, practice_id: int) -> PracticeRow:
+        """One practice proposal, open or answered."""
+
+        def find(session: Session) -> PracticeRow:
+            row = session.get(PracticeRow, practice_id)
+            if row is None:
+                raise NotFound("practice proposal", practice_id)
+            return row
+
+        return await self._database.read(find)
+
+    async def practice_progress(self, experiment_id: int, trainer: str) -> PracticeProgress:
+        """How a trainer does in an experiment's practice."""
+        return await self._database.read(lambda s: store_practice.progress(s, load(s, experiment_id), trainer))
 
 
 def weights(session: Session, experiment_id: int) -> dict[str, float]:

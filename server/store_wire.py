@@ -7,6 +7,7 @@ from server.models_incidents import IncidentRow
 from server.schemas_catalogue import Trainer
 from server.schemas_incidents import Incident, Report, Violation
 from server.schemas_labels import Relabel, answer_of
+from server.schemas_quality import PracticeRequired
 from server.schemas_trust import AutoApproval, VerdictSource
 
 
@@ -37,6 +38,7 @@ def experiment(row: models.ExperimentRow) -> schemas.Experiment:
         auto_approval=AutoApproval.model_validate(row.auto_approval) if row.auto_approval else None,
         auto_approval_suspended=row.auto_approval_suspended,
         gold_rate=row.gold_rate,
+        practice_required=PracticeRequired.model_validate(row.practice_required) if row.practice_required else None,
         counters=schemas.Counters(**counters),
         created_at=row.created_at,
         updated_at=row.updated_at,

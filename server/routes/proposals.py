@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from fastapi import APIRouter, Request, Response
@@ -11,6 +12,7 @@ from server.errors import ServiceError
 from server.images import Images
 from server.routes.dependencies import Cursor, Id, Limit, Running, errors
 from server.schemas import Proposal, ProposalPage
+from server.service import Service
 from server.store_errors import NotFound
 
 router = APIRouter(tags=["proposals"])
@@ -41,15 +43,24 @@ async def get_proposal(service: Running, proposal_id: Id) -> Proposal:
 async def get_image(service: Running, request: Request, proposal_id: Id, camera: str) -> Response:
     """The very still image that a proposal's overlay was computed on. It never changes: cache it for good."""
     proposal = await service.store.proposal(proposal_id)
-    view = next((view for view in proposal.views if view.camera == camera), None)
-    if view is None:
-        cameras = ", ".join(view.camera for view in proposal.views)
+    return picture(service, request, {view.camera: view.image for view in proposal.views}, camera)
+
+
+def picture(service: Service, request: Request, images: Mapping[str, str], camera: str) -> Response:
+    """The still image of one camera, given its hash by camera.
+
+    Raises:
+        ServiceError: 404, there is no such camera, or its file is gone.
+    """
+    image = images.get(camera)
+    if image is None:
+        cameras = ", ".join(images)
         raise ServiceError(404, f"the proposal has no camera {camera!r}", remedy=f"use one of: {cameras}")
-    headers = {"ETag": f'"{view.image}"', "Cache-Control": "private, max-age=31536000, immutable"}
+    headers = {"ETag": f'"{image}"', "Cache-Control": "private, max-age=31536000, immutable"}
     if headers["ETag"] in request.headers.get("if-none-match", ""):
         return Response(status_code=304, headers=headers)
     try:
-        path = Images(service.settings.data_dir).path(view.image)
+        path = Images(service.settings.data_dir).path(image)
     except NotFound as error:
         raise ServiceError(
             404,

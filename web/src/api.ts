@@ -901,6 +901,70 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/experiments/{experiment_id}/practice": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Practice
+         * @description How a trainer does in practice, what is required, and whether their clicks count.
+         */
+        get: operations["get_practice"];
+        put?: never;
+        /**
+         * Next Practice
+         * @description The practice proposal that waits for this trainer; a new one where none does. Asked again, it is the same one.
+         */
+        post: operations["next_practice"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/practice/{practice_id}/answer": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Answer Practice
+         * @description Judge it, and hear at once what was right and why. The same answer again gets the same correction.
+         */
+        post: operations["answer_practice"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/practice/{practice_id}/images/{camera}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Practice Image
+         * @description The picture that a practice proposal is drawn on.
+         */
+        get: operations["get_practice_image"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/studies": {
         parameters: {
             query?: never;
@@ -2132,6 +2196,7 @@ export interface components {
              * @default 0
              */
             gold_rate: number;
+            practice_required: components["schemas"]["PracticeRequired"] | null;
             counters: components["schemas"]["Counters"];
             /**
              * Created At
@@ -2256,6 +2321,7 @@ export interface components {
              * @default 0
              */
             gold_rate: number;
+            practice_required?: components["schemas"]["PracticeRequired"] | null;
         };
         /**
          * ExperimentPage
@@ -2280,6 +2346,7 @@ export interface components {
             auto_approval?: components["schemas"]["AutoApproval"] | null;
             /** Gold Rate */
             gold_rate?: number | null;
+            practice_required?: components["schemas"]["PracticeRequired"] | null;
         };
         /**
          * Feedback
@@ -2383,10 +2450,12 @@ export interface components {
         };
         /**
          * FeedbackStatus
-         * @description What became of a click: it counted, or it came after the proposal had closed and decides nothing.
+         * @description What became of a click: it counted, it came after the proposal had closed, or its trainer has to practise first.
+         *
+         *     Those that don't count are kept, and decide and teach nothing.
          * @enum {string}
          */
-        FeedbackStatus: "stored" | "late";
+        FeedbackStatus: "stored" | "late" | "practice";
         /**
          * FeedbackStored
          * @description A click is committed. `undoable` says whether it can still be undone.
@@ -2799,6 +2868,190 @@ export interface components {
              * @enum {string}
              */
             type: "pong";
+        };
+        /**
+         * PracticeAnswer
+         * @description What the trainer says of it.
+         */
+        PracticeAnswer: {
+            /**
+             * Click Id
+             * @description made by the client, unique per click; the same id again is acknowledged again and stored once
+             */
+            click_id: string;
+            /**
+             * Value
+             * @description -1 bad, 0 neutral, +1 good; cant_tell: nothing can be said from this view. That is an abstention: stored, never learned from, and neither for nor against
+             * @enum {unknown}
+             */
+            value: -1 | 0 | 1 | "cant_tell";
+            /**
+             * Trainer
+             * @default local
+             */
+            trainer: string;
+        };
+        /**
+         * PracticeCard
+         * @description A practice proposal that waits for its answer.
+         */
+        PracticeCard: {
+            /** Id */
+            id: number;
+            /** Experiment Id */
+            experiment_id: number;
+            /**
+             * Number
+             * @description number among this trainer's, from 1
+             */
+            number: number;
+            /** Task */
+            task: string;
+            /** Instruction */
+            instruction: string;
+            /** Skill */
+            skill: string;
+            /** Parameters */
+            parameters: {
+                [key: string]: number;
+            };
+            /**
+             * Subgoal
+             * @description what comes next, in words
+             */
+            subgoal: string;
+            /** Views */
+            views: components["schemas"]["View"][];
+            /**
+             * Opened At
+             * Format: date-time
+             */
+            opened_at: string;
+            progress: components["schemas"]["PracticeProgress"];
+        };
+        /**
+         * PracticeCreate
+         * @description Ask for the next practice proposal.
+         */
+        PracticeCreate: {
+            /**
+             * Trainer
+             * @default local
+             */
+            trainer: string;
+        };
+        /**
+         * PracticeProgress
+         * @description How a trainer does in an experiment's practice.
+         */
+        PracticeProgress: {
+            /** @description null: clicks count without any practice */
+            required: components["schemas"]["PracticeRequired"] | null;
+            /** Answered */
+            answered: number;
+            /** Right */
+            right: number;
+            /** @description right among the newest that are looked at */
+            newest: components["schemas"]["Share"];
+            /** Passed */
+            passed: boolean;
+            /**
+             * Counts
+             * @description whether this trainer's clicks count in the experiment now
+             */
+            counts: boolean;
+        };
+        /**
+         * PracticeReason
+         * @description Why the answer is what it is, from the task's own rule.
+         */
+        PracticeReason: {
+            /** Good */
+            good: boolean;
+            /** Skill */
+            skill: string;
+            /** Right Skill */
+            right_skill: string;
+            /** Aim */
+            aim: string;
+            /** Sideways */
+            sideways: boolean;
+            /**
+             * Slips
+             * @description what is wrong about the place; of a good call nothing
+             */
+            slips: components["schemas"]["PracticeSlip"][];
+            /** @description of a good call: the coordinate that is furthest out */
+            closest: components["schemas"]["PracticeSlip"] | null;
+            /**
+             * Text
+             * @description all of it in words
+             */
+            text: string;
+        };
+        /**
+         * PracticeRequired
+         * @description What a new trainer has to show in practice before their clicks count.
+         */
+        PracticeRequired: {
+            /**
+             * Proposals
+             * @description newest practice proposals that are looked at
+             * @default 10
+             */
+            proposals: number;
+            /**
+             * Accuracy
+             * @description share of them that must be judged right
+             * @default 0.8
+             */
+            accuracy: number;
+        };
+        /**
+         * PracticeResult
+         * @description The instant correction.
+         */
+        PracticeResult: {
+            /** Id */
+            id: number;
+            /**
+             * Value
+             * @description -1 bad, 0 neutral, +1 good; cant_tell: nothing can be said from this view. That is an abstention: stored, never learned from, and neither for nor against
+             * @enum {unknown}
+             */
+            value: -1 | 0 | 1 | "cant_tell";
+            /**
+             * Right Answer
+             * @enum {integer}
+             */
+            right_answer: -1 | 1;
+            /** Right */
+            right: boolean;
+            reason: components["schemas"]["PracticeReason"];
+            /**
+             * Right Overlays
+             * @description a call that would be good, drawn for each camera
+             */
+            right_overlays: {
+                [key: string]: components["schemas"]["Overlay"];
+            };
+            progress: components["schemas"]["PracticeProgress"];
+        };
+        /**
+         * PracticeSlip
+         * @description How far the call is from the ideal along an axis of the robot's base frame, and how far counts as good.
+         */
+        PracticeSlip: {
+            /**
+             * Axis
+             * @description x: away from the robot; y: to its left; z: up; end: of a push; place: in any direction
+             * @enum {string}
+             */
+            axis: "x" | "y" | "z" | "end" | "place";
+            /** Off Mm */
+            off_mm: number;
+            /** Limit Mm */
+            limit_mm: number;
         };
         /**
          * Problem
@@ -7210,6 +7463,347 @@ export interface operations {
                     "text/csv; charset=utf-8": unknown;
                     "application/x-ndjson": unknown;
                 };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_practice: {
+        parameters: {
+            query?: {
+                /** @description whose */
+                trainer?: string;
+            };
+            header?: never;
+            path: {
+                experiment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PracticeProgress"];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    next_practice: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                experiment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PracticeCreate"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PracticeCard"];
+                };
+            };
+            /** @description The body is no JSON, or nested too deeply */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The state of things doesn't allow it; `current` and `allowed` say what does */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    answer_practice: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                practice_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PracticeAnswer"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PracticeResult"];
+                };
+            };
+            /** @description The body is no JSON, or nested too deeply */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The state of things doesn't allow it; `current` and `allowed` say what does */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_practice_image: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                practice_id: number;
+                camera: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The JPEG */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/jpeg": string;
+                };
+            };
+            /** @description The client has it already */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             /** @description A foreign page, or a foreign host name */
             403: {

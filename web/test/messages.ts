@@ -44,6 +44,7 @@ export function experiment(change: Partial<Experiment> = {}): Experiment {
     auto_approval: null,
     auto_approval_suspended: null,
     gold_rate: 0,
+    practice_required: null,
     created_at: AT,
     updated_at: AT,
     ...change,
