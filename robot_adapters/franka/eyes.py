@@ -1,0 +1,86 @@
+"""What the Franka adapter needs to see: where objects are, how fresh that is, and pictures with their calibration.
+
+`perception` sees with cameras; tests know the truth from a simulator. Everything is in the robot base frame.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from robot_adapters.base import Array, CameraCalibration, CameraFrame
+
+
+@dataclass(frozen=True)
+class Hand:
+    """What the arm knows that helps seeing: a held object is where the grip site is, and hidden by fingers.
+
+    grip_site: (3,) m, robot base frame. yaw: rad, 0 where the fingers close along y. width: m between the fingers.
+    closed: whether they were last commanded to close. moving: whether the arm may have moved since the last look.
+    """
+
+    grip_site: Array
+    yaw: float
+    width: float
+    closed: bool
+    moving: bool = False
+
+
+@dataclass(frozen=True)
+class Sight:
+    """What is known of the scene, as one snapshot.
+
+    objects: name -> (3,) m, base frame, of every movable object that is known. joints: name -> m from closed, of what
+    slides. tilts: name -> rad from upright. taken_at: name -> seconds since the epoch at which each was last measured.
+    missing: name -> why it isn't known well enough to act on, in words for the trainer: `hidden for 3 s`. An object
+    may be in `objects` (where it was last) and in `missing`: then nothing may be proposed.
+    """
+
+    objects: Mapping[str, Array]
+    taken_at: Mapping[str, float]
+    joints: Mapping[str, float] = field(default_factory=dict)
+    tilts: Mapping[str, float] = field(default_factory=dict)
+    missing: Mapping[str, str] = field(default_factory=dict)
+
+
+class Eyes(Protocol):
+    """Cameras with what is read off their pictures. Used from the thread that made it."""
+
+    cameras: tuple[str, ...]
+    image_size: tuple[int, int]
+    """(width, height) of a still, pixels."""
+
+    def calibrations(self) -> Mapping[str, CameraCalibration]:
+        """How each camera maps the robot base frame to its full-size stills."""
+
+    def refusal(self) -> str | None:
+        """Why nothing may be proposed whatever is seen, in words (a camera has moved, is gone); None if all is well."""
+
+    def look(self, hand: Hand) -> Sight:
+        """The scene now; new pictures are taken where the last are old."""
+
+    def frame(self, camera: str, *, still: bool) -> CameraFrame:
+        """The newest picture; a still is one that `look` has read last, so that both tell of the same moment.
+
+        Raises:
+            Unavailable: there is no such camera, or it is gone.
+        """
+
+    def close(self) -> None:
+        """Release the cameras."""
+
+
+class EyesFactory(Protocol):
+    """Builds the eyes of a task, as `FrankaSettings.eyes` names them (entry points of the group `seed.eyes`)."""
+
+    def __call__(self, task: str, settings: Mapping[str, object]) -> Eyes:
+        """Open the cameras.
+
+        Args:
+            task: name of the task, whose objects are to be seen.
+            settings: what the adapter's setting `eyes_settings` says; checked here.
+
+        Raises:
+            Unavailable: a camera or its calibration is missing; the remedy says what to do.
+        """
