@@ -80,7 +80,7 @@ def test_colours_and_language_are_chosen_and_remembered(page: Page, service: Liv
     dark = body.evaluate("body => getComputedStyle(body).backgroundColor")
     page.get_by_test_id("preferences").click()
     page.get_by_test_id("theme-light").check(force=True)  # the input lies invisibly over its label
-    page.get_by_role("dialog").get_by_role("combobox").select_option("de")
+    page.get_by_label("Language").select_option("de")
     expect(page.locator("html")).to_have_attribute("lang", "de")
     accessible(page)
     page.get_by_test_id("preferences-done").click()

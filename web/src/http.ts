@@ -1,5 +1,6 @@
 // REST: JSON in and out; every failure becomes an `ApiError` that carries problem details with a remedy.
 import { t } from "./i18n";
+import { ME } from "./me";
 import type {
   AdapterInfo,
   AlgorithmInfo,
@@ -7,9 +8,11 @@ import type {
   AutoApprovalRecord,
   Calibration,
   Evaluation,
+  Execution,
   Experiment,
   ExperimentCreate,
   ExperimentPage,
+  Feedback,
   MetricPage,
   MetricPoint,
   Mode,
@@ -19,6 +22,8 @@ import type {
   StudySummary,
   TaskInfo,
   TeacherInfo,
+  TrainerFigures,
+  Value,
   Verb,
 } from "./wire";
 
@@ -88,6 +93,8 @@ export interface Catalogue {
   teachers: TeacherInfo[];
 }
 
+export const task = (name: string) => request<TaskInfo>("GET", `/tasks/${encodeURIComponent(name)}`);
+
 export const adapterList = () => list<AdapterInfo>("/adapters");
 
 export async function catalogue(): Promise<Catalogue> {
@@ -129,6 +136,20 @@ export const evaluate = (id: number, rollouts: number) =>
 
 export const newestEvaluation = async (id: number) =>
   (await list<Evaluation>(`/experiments/${id}/evaluations?limit=1`))[0] ?? null;
+
+/** The newest proposals with what was said of them and what came of it, for the strip of the past. */
+export const past = (id: number, most: number) =>
+  Promise.all([
+    list<Proposal>(`/experiments/${id}/proposals?limit=${most}`),
+    list<Feedback>(`/experiments/${id}/feedback?limit=200`),
+    list<Execution>(`/experiments/${id}/executions?limit=${most}`),
+  ]);
+
+export const ownFigures = (id: number) =>
+  request<TrainerFigures>("GET", `/experiments/${id}/quality/mine?trainer=${encodeURIComponent(ME)}`);
+
+export const relabel = (feedbackId: number, clickId: string, value: Value) =>
+  request<Feedback>("POST", `/feedback/${feedbackId}/relabels`, { click_id: clickId, value, trainer: ME });
 
 export const newestProposal = async (id: number) =>
   (await list<Proposal>(`/experiments/${id}/proposals?limit=1`))[0] ?? null;

@@ -5,6 +5,8 @@ import type { Value } from "./wire";
 export interface Click {
   click_id: string;
   proposal_id: number;
+  /** Whether the predicted feedback was shown beside it. */
+  estimate_shown?: boolean;
   value: Value;
 }
 

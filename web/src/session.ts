@@ -2,9 +2,11 @@
 
 import { type Dispatch, useEffect, useMemo, useReducer } from "react";
 import { FrameSink } from "./frames";
+import { KEPT } from "./history";
 import * as http from "./http";
 import { t } from "./i18n";
 import { newId } from "./ids";
+import { ME } from "./me";
 import { type Click, Outbox } from "./outbox";
 import { type Action, initial, reduce, type TrainerState } from "./state";
 import { type Connection, Stream } from "./stream";
@@ -60,12 +62,26 @@ export class Session {
   }
 
   /** Keep first, then send: a click survives a dead connection and a reload. */
-  judge(proposalId: number, value: Value): void {
+  judge(proposalId: number, value: Value, estimateShown: boolean): void {
     if (this.outbox.all().some((click) => click.proposal_id === proposalId)) return;
-    const click: Click = { click_id: newId(), proposal_id: proposalId, value };
+    const click: Click = {
+      click_id: newId(),
+      proposal_id: proposalId,
+      value,
+      estimate_shown: estimateShown,
+    };
     this.outbox.add(click);
     this.send(click);
     this.dispatch({ kind: "pending", clicks: this.outbox.all() });
+  }
+
+  async relabel(feedbackId: number, value: Value): Promise<void> {
+    try {
+      const feedback = await http.relabel(feedbackId, newId(), value);
+      this.dispatch({ kind: "relabelled", feedback });
+    } catch (error) {
+      this.complain(error);
+    }
   }
 
   undo(feedbackId: number): void {
@@ -102,6 +118,8 @@ export class Session {
   }
 
   watch = (robot: number | null): void => this.dispatch({ kind: "watch", robot });
+
+  notify = (text: string): void => this.dispatch({ kind: "notice", tone: "info", text });
 
   dismiss = (id: number): void => this.dispatch({ kind: "dismiss", id });
 
@@ -141,7 +159,7 @@ export class Session {
   }
 
   private send(click: Click): void {
-    this.stream.send({ type: "feedback", trainer: "local", ...click });
+    this.stream.send({ type: "feedback", trainer: ME, ...click });
   }
 
   private sendKept(): void {
@@ -153,6 +171,10 @@ export class Session {
     if (connection !== "open") return;
     this.sendKept();
     if (this.stopWanted) this.tryHalt();
+    http.past(this.id, KEPT).then(
+      ([proposals, feedback, executions]) => this.dispatch({ kind: "past", proposals, feedback, executions }),
+      () => undefined, // the strip goes on from the stream
+    );
     http.metrics(this.id).then(
       (points) => this.dispatch({ kind: "metrics", points }),
       () => undefined, // the curve goes on from the stream

@@ -1,5 +1,8 @@
 // All a trainer's page knows, in one reducer fed by the stream. Pure; the effects are in session.ts.
+
+import { type History, loaded, remember, withOwn } from "./history";
 import { skillName, t } from "./i18n";
+import { ME } from "./me";
 import type { Click } from "./outbox";
 import { isOpen, type Judged, type RobotState, STILL, saying, shownRobot } from "./robots";
 import type { Connection } from "./stream";
@@ -42,6 +45,7 @@ export interface TrainerState {
   pending: Click[];
   /** The acknowledged clicks on the robots' newest proposals. */
   judged: Judged;
+  history: History;
   curve: CurvePoint[];
   evaluation: Evaluation | null;
   evaluationDone: number;
@@ -65,6 +69,8 @@ export type Action =
   | { kind: "experiment"; experiment: Experiment }
   | { kind: "metrics"; points: MetricPoint[] }
   | { kind: "evaluation"; evaluation: Evaluation | null }
+  | { kind: "past"; proposals: Proposal[]; feedback: Feedback[]; executions: Execution[] }
+  | { kind: "relabelled"; feedback: Feedback }
   | { kind: "backdrop"; proposal: Proposal | null }
   | { kind: "watch"; robot: number | null }
   | { kind: "stopping"; stopping: TrainerState["stopping"] }
@@ -87,6 +93,7 @@ export const initial: TrainerState = {
   undoableOn: null,
   pending: [],
   judged: {},
+  history: [],
   curve: [],
   evaluation: null,
   evaluationDone: 0,
@@ -105,8 +112,17 @@ export function reduce(state: TrainerState, action: Action): TrainerState {
 
 function step(state: TrainerState, action: Action): TrainerState {
   switch (action.kind) {
-    case "event":
-      return onEvent(state, action.event);
+    case "event": {
+      const next = onEvent(state, action.event);
+      const history = remember(next.history, action.event, ME);
+      return history === next.history ? next : { ...next, history };
+    }
+    case "past": {
+      const { proposals, feedback, executions } = action;
+      return { ...state, history: loaded(state.history, proposals, feedback, executions, ME) };
+    }
+    case "relabelled":
+      return { ...state, history: withOwn(state.history, action.feedback) };
     case "connection":
       return { ...state, connection: action.connection };
     case "pending":

@@ -1,5 +1,6 @@
 // When the drawn proposal appeared: how long it was there before a press, and the time from a click until it came.
 import { useLayoutEffect, useRef } from "react";
+import { announce } from "./cues";
 
 export interface DrawnClock {
   /** How long (ms) what is drawn now had been there at `time` (ms, as in `Event.timeStamp`); negative before it. */
@@ -17,6 +18,8 @@ export function useDrawnAt(drawnId: number | null): DrawnClock {
       return;
     }
     drawnAt.current = performance.now();
+    performance.mark("seed:drawn", { detail: { proposal: drawnId } });
+    announce();
     const start = clickedAt.current;
     clickedAt.current = null;
     if (start === null) return;

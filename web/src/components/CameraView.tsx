@@ -1,10 +1,13 @@
 // One camera: the still picture a proposal is drawn on, and over it the live video while the robot moves.
-
 import { useEffect, useEffectEvent, useLayoutEffect, useRef } from "react";
 import type { FrameSink } from "../frames";
 import { skillName, t } from "../i18n";
+import { useSettings } from "../settings";
+import { useZoom } from "../useZoom";
 import type { FrameHeader, View } from "../wire";
-import { OverlayDrawing } from "./OverlayDrawing";
+import type { Swipe } from "../zoom";
+import { Minus, Plus, Whole } from "./icons";
+import { OverlayDrawing, Workspace } from "./OverlayDrawing";
 
 export interface CameraViewProps {
   side: "left" | "right";
@@ -20,6 +23,7 @@ export interface CameraViewProps {
   /** Whether the robot moves; after it the last picture of the video stays until there is a new still. */
   moving: boolean;
   frames: FrameSink;
+  onSwipe?: ((swipe: Swipe, at: number) => void) | undefined;
 }
 
 function draw(canvas: HTMLCanvasElement | null, picture: ImageBitmap, width: number, height: number): void {
@@ -29,8 +33,8 @@ function draw(canvas: HTMLCanvasElement | null, picture: ImageBitmap, width: num
   canvas.getContext("2d")?.drawImage(picture, 0, 0, width, height);
 }
 
-export function CameraView(props: CameraViewProps) {
-  const { view, picture, live, frames } = props;
+/** Draws stills and live frames onto the two canvases that it returns. */
+function useCanvases({ view, picture, live, frames, robot }: CameraViewProps) {
   const still = useRef<HTMLCanvasElement>(null);
   const video = useRef<HTMLCanvasElement>(null);
   const shownExecution = useRef<number | null>(null);
@@ -48,7 +52,7 @@ export function CameraView(props: CameraViewProps) {
   }, [live]);
 
   const onFrame = useEffectEvent((header: FrameHeader, frame: ImageBitmap) => {
-    if (header.robot !== props.robot) return;
+    if (header.robot !== robot) return;
     shownExecution.current = header.execution_id ?? live;
     draw(video.current, frame, header.width, header.height);
   });
@@ -56,31 +60,75 @@ export function CameraView(props: CameraViewProps) {
     () => frames.attach(view.camera, (header, frame) => onFrame(header, frame)),
     [frames, view.camera],
   );
+  return { still, video };
+}
 
+export function CameraView(props: CameraViewProps) {
+  const { view, live, overlay } = props;
+  const { still, video } = useCanvases(props);
+  const frame = useRef<HTMLElement>(null);
+  const { zoom, stroke, nearer, farther, whole } = useZoom(frame, props.onSwipe);
+  const { ghost, workspace } = useSettings();
   const name = view.camera.replaceAll("_", " ");
+  const zoomed = zoom.scale > 1;
   return (
     <figure
       className="view"
       data-testid={`view-${props.side}`}
       data-live={live !== null}
+      data-zoomed={zoomed}
+      data-stroke={stroke ?? undefined}
       style={{ aspectRatio: `${view.width} / ${view.height}` }}
+      ref={frame}
     >
-      <canvas ref={still} role="img" aria-label={t("camera.still", { camera: name })} />
-      <canvas ref={video} className="live" role="img" aria-label={t("camera.video", { camera: name })} />
-      {props.overlay && (
-        <OverlayDrawing
-          overlay={view.overlay}
-          width={view.width}
-          height={view.height}
-          judged={props.judged}
-        />
-      )}
+      <div
+        className="picture"
+        style={{ transform: `translate(${100 * zoom.x}%, ${100 * zoom.y}%) scale(${zoom.scale})` }}
+      >
+        <canvas ref={still} role="img" aria-label={t("camera.still", { camera: name })} />
+        <canvas ref={video} className="live" role="img" aria-label={t("camera.video", { camera: name })} />
+        {workspace && (
+          <svg className="overlay" viewBox={`0 0 ${view.width} ${view.height}`} aria-hidden="true">
+            <Workspace corners={view.overlay.workspace} />
+          </svg>
+        )}
+        {overlay && (
+          <OverlayDrawing
+            overlay={view.overlay}
+            width={view.width}
+            height={view.height}
+            judged={props.judged}
+            ghost={ghost}
+          />
+        )}
+      </div>
       {props.skill && <span className="chip skill">{skillName(props.skill)}</span>}
       <span className="chip camera">
         {props.moving && <span className="dot" />}
         {props.moving ? t("camera.live", { camera: name }) : name}
       </span>
-      {props.overlay && !view.overlay.in_view && <span className="chip note">{t("camera.outside")}</span>}
+      {overlay && !view.overlay.in_view && <span className="chip note">{t("camera.outside")}</span>}
+      <div className="zoom">
+        {zoomed && (
+          <>
+            <button type="button" aria-label={t("camera.whole", { camera: name })} onClick={whole}>
+              <Whole />
+            </button>
+            <button type="button" aria-label={t("camera.farther", { camera: name })} onClick={farther}>
+              <Minus />
+            </button>
+          </>
+        )}
+        <button
+          type="button"
+          aria-label={t("camera.nearer", { camera: name })}
+          title={t("camera.how")}
+          onClick={nearer}
+          data-testid={`nearer-${props.side}`}
+        >
+          <Plus />
+        </button>
+      </div>
     </figure>
   );
 }

@@ -5,7 +5,7 @@ import { type ReactNode, useEffect, useEffectEvent, useId, useRef } from "react"
 import { createPortal } from "react-dom";
 import { t } from "../i18n";
 
-export function Dialog(props: { title: string; onClose: () => void; children: ReactNode }) {
+export function Dialog(props: { title: string; wide?: boolean; onClose: () => void; children: ReactNode }) {
   const titleId = useId();
   const box = useRef<HTMLDivElement>(null);
   const close = useEffectEvent(() => props.onClose());
@@ -29,7 +29,13 @@ export function Dialog(props: { title: string; onClose: () => void; children: Re
   }, []);
   return createPortal(
     <div className="shade">
-      <div className="dialog" role="dialog" aria-modal="true" aria-labelledby={titleId} ref={box}>
+      <div
+        className={props.wide ? "dialog wide" : "dialog"}
+        role="dialog"
+        aria-modal="true"
+        aria-labelledby={titleId}
+        ref={box}
+      >
         <h2 id={titleId}>{props.title}</h2>
         {props.children}
       </div>

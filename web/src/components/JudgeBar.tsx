@@ -39,7 +39,7 @@ export interface JudgeBarProps {
   onUndo: () => void;
 }
 
-function typing(target: EventTarget | null): boolean {
+export function typing(target: EventTarget | null): boolean {
   return (
     target instanceof HTMLElement &&
     target.matches("input:not([type=radio]), select, textarea, [contenteditable]")
@@ -56,7 +56,7 @@ function useJudgeKeys(props: JudgeBarProps): void {
       event.preventDefault();
       props.onUndo();
     }
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || event.shiftKey) return;
     const choice = CHOICES.find(({ key, number }) => event.key === key || event.key === number);
     if (!choice) return;
     event.preventDefault();

@@ -1,6 +1,7 @@
 // How the page looks and speaks in this browser: colours and language, remembered.
 import { useState } from "react";
 import { chooseLanguage, LANGUAGES, nameOf, t, useLanguage } from "../i18n";
+import { change, RESTS, useSettings } from "../settings";
 import { chooseTheme, THEMES, useTheme } from "../theme";
 import { Dialog } from "./Dialog";
 import { Choice } from "./Field";
@@ -9,6 +10,7 @@ import { Sliders } from "./icons";
 function Panel({ onClose }: { onClose: () => void }) {
   const chosen = useTheme();
   const language = useLanguage();
+  const judging = useSettings();
   return (
     <Dialog title={t("settings.title")} onClose={onClose}>
       <div className="preferences">
@@ -35,6 +37,30 @@ function Panel({ onClose }: { onClose: () => void }) {
           value={language}
           options={LANGUAGES.map((tag) => ({ value: tag, label: nameOf(tag) }))}
           onChange={(tag) => void chooseLanguage(tag)}
+        />
+        <fieldset className="checks">
+          <legend>{t("settings.judging")}</legend>
+          {(["sound", "haptic"] as const).map((name) => (
+            <label key={name}>
+              <input
+                type="checkbox"
+                checked={judging[name]}
+                onChange={(event) => change({ [name]: event.target.checked })}
+                data-testid={`cue-${name}`}
+              />
+              {t(`settings.${name}`)}
+            </label>
+          ))}
+        </fieldset>
+        <Choice
+          label={t("settings.rest")}
+          name="rest"
+          value={String(judging.restAfter)}
+          options={RESTS.map((minutes) => ({
+            value: String(minutes),
+            label: minutes ? t("settings.minutes", { count: minutes }) : t("settings.never"),
+          }))}
+          onChange={(minutes) => change({ restAfter: Number(minutes) })}
         />
       </div>
       <div className="actions">

@@ -3,7 +3,9 @@
 import { useEffect, useState } from "react";
 import * as http from "../http";
 import { t } from "../i18n";
+import type { Pace } from "../pace";
 import type { Session } from "../session";
+import { useSettings } from "../settings";
 import type { TrainerState } from "../state";
 import type { Experiment, Mode, Proposal } from "../wire";
 import { AutoApprovalPanel } from "./AutoApproval";
@@ -11,7 +13,10 @@ import { Counters } from "./Counters";
 import type { Question } from "./Dialog";
 import { EvaluationPanel } from "./Evaluation";
 import { ModeSwitch } from "./ModeSwitch";
+import { OwnPace } from "./OwnPace";
+import { SceneView } from "./SceneView";
 import { Thought } from "./Thought";
+import { TourOffer } from "./Tour";
 
 const ROLLOUTS = 10; // as in the paper's evaluations
 
@@ -43,9 +48,15 @@ export interface SidePanelProps {
   proposal: Proposal | null;
   session: Session;
   onAsk: (question: Question) => void;
+  /** Whether what it proposes is drawn. */
+  overlay: boolean;
+  pace: Pace;
+  onTour: () => void;
 }
 
-export function SidePanel({ state, experiment, proposal, session, onAsk }: SidePanelProps) {
+export function SidePanel(props: SidePanelProps) {
+  const { state, experiment, proposal, session, onAsk } = props;
+  const { scene } = useSettings();
   const simulated = useSimulated(experiment.adapter);
   const changeMode = (mode: Mode) => {
     if (mode === "propose_only") void session.setMode(mode);
@@ -60,8 +71,11 @@ export function SidePanel({ state, experiment, proposal, session, onAsk }: SideP
   };
   return (
     <aside className="side" aria-label={t("title.side")}>
-      <Counters counters={experiment.counters} />
+      <TourOffer onTour={props.onTour} />
+      {scene && <SceneView task={experiment.task} proposal={proposal} overlay={props.overlay} />}
       <Thought proposal={proposal} />
+      <OwnPace id={experiment.id} feedback={experiment.counters.feedback} pace={props.pace} />
+      <Counters counters={experiment.counters} />
       <ModeSwitch mode={experiment.mode} onChange={changeMode} />
       {simulated && (
         <AutoApprovalPanel

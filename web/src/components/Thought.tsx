@@ -1,6 +1,7 @@
-// What the agent thinks: the next subgoal, the feedback it expects, how likely each skill was.
+// What the agent thinks: the feedback it expects, which can be hidden, and its choices of a skill in their order.
 import { skillName, t } from "../i18n";
 import { decimal, percent, signed } from "../i18n/numbers";
+import { change, useSettings } from "../settings";
 import type { Proposal } from "../wire";
 
 const bound = (value: number) => Math.max(-1, Math.min(1, value));
@@ -33,50 +34,78 @@ function Gauge({ value, uncertainty }: { value: number; uncertainty: number | nu
   );
 }
 
+/** The skills by their probability, the likeliest first: what it would rather have done, and how much rather. */
+function Choices({ proposal }: { proposal: Proposal }) {
+  const skills = Object.entries(proposal.skill_probabilities).sort(([, one], [, other]) => other - one);
+  if (skills.length === 0) return null;
+  return (
+    <div>
+      <h2>{t("agent.choices")}</h2>
+      <ol className="choices">
+        {skills.map(([skill, probability], rank) => (
+          <li className="bar-row" key={skill} data-chosen={skill === proposal.skill}>
+            <span className="rank">{rank + 1}</span>
+            <span className={skill === proposal.skill ? "" : "soft"}>{skillName(skill)}</span>
+            <div className="track">
+              <i style={{ left: 0, width: `${100 * probability}%` }} />
+            </div>
+            <b>{percent(probability)}</b>
+          </li>
+        ))}
+      </ol>
+    </div>
+  );
+}
+
+function Expected({ proposal }: { proposal: Proposal }) {
+  const { estimate } = useSettings();
+  return (
+    <div>
+      <h2 className="with-action">
+        <span>
+          {t("agent.predicted")} <abbr title={t("agent.critic")}>Ĥ</abbr>
+        </span>
+        <button
+          type="button"
+          className="link"
+          aria-pressed={!estimate}
+          title={t("tools.estimateWhat")}
+          data-testid="hide-estimate"
+          onClick={() => change({ estimate: !estimate })}
+        >
+          {estimate ? t("agent.hide") : t("agent.show")}
+        </button>
+      </h2>
+      {estimate ? (
+        <Gauge value={proposal.predicted_feedback} uncertainty={proposal.uncertainty} />
+      ) : (
+        <p className="hint" data-testid="estimate-hidden">
+          {t("agent.hidden")}
+        </p>
+      )}
+      {estimate && proposal.uncertainty === null && (
+        <p className="hint" data-testid="uncertainty-unknown">
+          {t("agent.uncertaintyUnknown")}
+        </p>
+      )}
+    </div>
+  );
+}
+
 export function Thought({ proposal }: { proposal: Proposal | null }) {
-  if (!proposal)
-    return (
-      <section className="card" aria-label={t("agent.label")}>
-        <h2>{t("agent.label")}</h2>
-        <p className="soft">{t("agent.empty")}</p>
-      </section>
-    );
-  const skills = Object.entries(proposal.skill_probabilities);
   return (
     <section className="card" aria-label={t("agent.label")}>
-      <div className="thought">
-        {proposal.subgoal && (
-          <div>
-            <h2>{t("agent.next")}</h2>
-            <p data-testid="subgoal">{proposal.subgoal}</p>
-          </div>
-        )}
-        <div>
-          <h2>
-            {t("agent.predicted")} <abbr title={t("agent.critic")}>Ĥ</abbr>
-          </h2>
-          <Gauge value={proposal.predicted_feedback} uncertainty={proposal.uncertainty} />
-          {proposal.uncertainty === null && (
-            <p className="hint" data-testid="uncertainty-unknown">
-              {t("agent.uncertaintyUnknown")}
-            </p>
-          )}
+      {proposal ? (
+        <div className="thought">
+          <Expected proposal={proposal} />
+          <Choices proposal={proposal} />
         </div>
-        {skills.length > 0 && (
-          <div>
-            <h2>{t("agent.skills")}</h2>
-            {skills.map(([skill, probability]) => (
-              <div className="bar-row" key={skill}>
-                <span className={skill === proposal.skill ? "" : "soft"}>{skillName(skill)}</span>
-                <div className="track">
-                  <i style={{ left: 0, width: `${100 * probability}%` }} />
-                </div>
-                <b>{percent(probability)}</b>
-              </div>
-            ))}
-          </div>
-        )}
-      </div>
+      ) : (
+        <>
+          <h2>{t("agent.label")}</h2>
+          <p className="soft">{t("agent.empty")}</p>
+        </>
+      )}
     </section>
   );
 }

@@ -5,6 +5,7 @@ import type { FrameSink } from "../frames";
 import { t } from "../i18n";
 import type { ImageStore } from "../images";
 import type { Proposal } from "../wire";
+import type { Swipe } from "../zoom";
 import { CameraView } from "./CameraView";
 
 /** The proposal whose pictures are on the screen: `proposal` once they are decoded, until then the one before.
@@ -41,6 +42,7 @@ export interface ViewsProps {
   moving: boolean;
   skill: string | null;
   empty: string;
+  onSwipe?: (swipe: Swipe, at: number) => void;
 }
 
 export function Views(props: ViewsProps) {
@@ -78,6 +80,7 @@ export function Views(props: ViewsProps) {
           live={live}
           moving={props.moving}
           frames={props.frames}
+          onSwipe={props.onSwipe}
         />
       ))}
       {failed && (

@@ -69,3 +69,100 @@ export function Sliders() {
     </svg>
   );
 }
+
+export function Plus() {
+  return (
+    <svg viewBox="0 0 24 24" aria-hidden="true" {...stroke}>
+      <path d="M12 6v12M6 12h12" />
+    </svg>
+  );
+}
+
+export function Minus() {
+  return (
+    <svg viewBox="0 0 24 24" aria-hidden="true" {...stroke}>
+      <path d="M6 12h12" />
+    </svg>
+  );
+}
+
+export function Whole() {
+  return (
+    <svg viewBox="0 0 24 24" aria-hidden="true" {...stroke}>
+      <path d="M9 4H4v5m11-5h5v5M9 20H4v-5m11 5h5v-5" />
+    </svg>
+  );
+}
+
+export function Ghost() {
+  return (
+    <svg viewBox="0 0 24 24" aria-hidden="true" {...stroke}>
+      <path d="M5 11V8h14v3M7 11v8m10-8v8M12 4v4" />
+    </svg>
+  );
+}
+
+export function Room() {
+  return (
+    <svg viewBox="0 0 24 24" aria-hidden="true" {...stroke}>
+      <path d="m4 16 8 4 8-4M4 16V8l8-4 8 4v8M4 8l8 4 8-4M12 12v8" />
+    </svg>
+  );
+}
+
+export function Gauge() {
+  return (
+    <svg viewBox="0 0 24 24" aria-hidden="true" {...stroke}>
+      <path d="M4 17a8 8 0 1 1 16 0M12 17l4-6" />
+    </svg>
+  );
+}
+
+export function Orbit() {
+  return (
+    <svg viewBox="0 0 24 24" aria-hidden="true" {...stroke}>
+      <ellipse cx="12" cy="12" rx="9" ry="4" />
+      <path d="M12 3c2.2 0 4 4 4 9s-1.8 9-4 9-4-4-4-9 1.8-9 4-9Z" />
+    </svg>
+  );
+}
+
+export function Question() {
+  return (
+    <svg viewBox="0 0 24 24" aria-hidden="true" {...stroke}>
+      <path d="M9 9a3 3 0 1 1 4.5 2.600c-1 .6-1.5 1.200-1.5 2.400M12 18v.1" />
+    </svg>
+  );
+}
+
+export function TurnLeft() {
+  return (
+    <svg viewBox="0 0 24 24" aria-hidden="true" {...stroke}>
+      <path d="M5 8v5h5M5.5 13a7 7 0 1 1 2 5" />
+    </svg>
+  );
+}
+
+export function TurnRight() {
+  return (
+    <svg viewBox="0 0 24 24" aria-hidden="true" {...stroke}>
+      <path d="M19 8v5h-5m4.5 0a7 7 0 1 0-2 5" />
+    </svg>
+  );
+}
+
+export function Bolt() {
+  return (
+    <svg viewBox="0 0 24 24" aria-hidden="true" {...stroke}>
+      <path d="M13 3 5 14h6l-1 7 8-11h-6Z" />
+    </svg>
+  );
+}
+
+export function Warning() {
+  return (
+    <svg viewBox="0 0 24 24" aria-hidden="true" {...stroke}>
+      <path d="M12 4 3 20h18L12 4Zm0 6v5m0 2.5v.1" />
+    </svg>
+  );
+}

@@ -9,24 +9,36 @@ import { Curve } from "../components/Curve";
 import { Confirm, type Question } from "../components/Dialog";
 import { HaltBanner } from "../components/HaltBanner";
 import { Header } from "../components/Header";
+import { HistoryStrip } from "../components/History";
 import { JudgeBar } from "../components/JudgeBar";
 import { Notices } from "../components/Notices";
 import { ProblemCard } from "../components/ProblemCard";
 import { RobotPicker } from "../components/RobotPicker";
 import { SidePanel } from "../components/SidePanel";
 import { StopButton } from "../components/StopButton";
+import { Tour } from "../components/Tour";
 import { TrainerTitle } from "../components/TrainerTitle";
 import { useDrawn, Views } from "../components/Views";
+import { ViewTools } from "../components/ViewTools";
 import { t } from "../i18n";
 import { ImageStore } from "../images";
 import { queueOf } from "../robots";
 import { useSession } from "../session";
+import { useSettings } from "../settings";
 import { chosenFor, overlayWanted } from "../state";
 import { useJudging } from "../useJudging";
+import { usePace } from "../usePace";
+import type { Value } from "../wire";
+import type { Swipe } from "../zoom";
+
+const STROKES: Record<Swipe, Value> = { left: -1, up: 0, right: 1 };
 
 export function TrainerPage({ id }: { id: number }) {
   const { state, session } = useSession(id);
+  const [touring, setTouring] = useState(false);
   const [question, setQuestion] = useState<Question | null>(null);
+  const settings = useSettings();
+  const pace = usePace(settings.restAfter, session.notify);
   const images = useMemo(() => new ImageStore(), []);
   const next = queueOf(state.robots, state.judged).find(({ id }) => id !== state.proposal?.id) ?? null;
   const { drawn, failed } = useDrawn(images, state.proposal, next);
@@ -36,9 +48,10 @@ export function TrainerPage({ id }: { id: number }) {
   const current = drawn !== null && drawn === proposal;
   const overlay = current && overlayWanted(state);
   const drawnId = overlay && !drawn.closed_at ? drawn.id : null;
-  const { ready, accepting, hint, judge } = useJudging(state, drawnId, (proposalId, value) =>
-    session.judge(proposalId, value),
-  );
+  const { ready, accepting, hint, judge } = useJudging(state, drawnId, (proposalId, value) => {
+    session.judge(proposalId, value, settings.estimate);
+    pace.click();
+  });
   const judging = experiment?.lifecycle === "running" && !experiment.halted;
 
   useEffect(() => {
@@ -67,7 +80,12 @@ export function TrainerPage({ id }: { id: number }) {
                 onChoose={session.watch}
               />
             )}
+            <ViewTools
+              subgoal={(current ? proposal : drawn)?.subgoal ?? null}
+              onTour={() => setTouring(true)}
+            />
             <Views
+              onSwipe={(swipe, at) => judge(STROKES[swipe], at)}
               images={images}
               frames={session.frames}
               drawn={drawn}
@@ -96,6 +114,10 @@ export function TrainerPage({ id }: { id: number }) {
                 onUndo={() => undoable && session.undo(undoable.id)}
               />
             </div>
+            <HistoryStrip
+              history={state.history}
+              onRelabel={(feedbackId, value) => void session.relabel(feedbackId, value)}
+            />
             <Curve curve={state.curve} />
           </div>
           {experiment && (
@@ -105,11 +127,15 @@ export function TrainerPage({ id }: { id: number }) {
               proposal={current ? proposal : drawn}
               session={session}
               onAsk={setQuestion}
+              overlay={overlay}
+              pace={pace.pace}
+              onTour={() => setTouring(true)}
             />
           )}
           {experiment && <CalibrationPanel experiment={experiment} />}
         </div>
       </main>
+      {touring && <Tour onClose={() => setTouring(false)} />}
       <Notices notices={state.notices} onDismiss={session.dismiss} />
       {question && <Confirm question={question} onClose={() => setQuestion(null)} />}
     </>

@@ -1,0 +1,102 @@
+// The newest proposals with what one said of them and what came of it. Pure; kept by the reducer, fed by the stream.
+import type { Execution, Feedback, Proposal, StreamEvent } from "./wire";
+
+export const KEPT = 50;
+
+export interface Entry {
+  proposal: Proposal;
+  /** One's own click, as it counts now. */
+  own: Feedback | null;
+  execution: Execution | null;
+}
+
+/** Newest first. */
+export type History = Entry[];
+
+export type Filter = "all" | "good" | "bad" | "executed" | "violation";
+export const FILTERS: Filter[] = ["all", "good", "bad", "executed", "violation"];
+
+const PASSES: Record<Filter, (entry: Entry) => boolean> = {
+  all: () => true,
+  good: ({ own }) => own?.label === 1,
+  bad: ({ own }) => own?.label === -1,
+  executed: ({ execution }) => execution !== null,
+  violation: ({ execution }) => (execution?.violations.length ?? 0) > 0,
+};
+
+export const shown = (history: History, filter: Filter): History => history.filter(PASSES[filter]);
+
+/** What REST told, under what the stream has told meanwhile. */
+export function loaded(
+  history: History,
+  proposals: Proposal[],
+  feedback: Feedback[],
+  executions: Execution[],
+  me: string,
+): History {
+  const own = new Map(
+    feedback
+      .filter((each) => each.trainer === me && !each.undone_at && each.status === "stored")
+      .map((each) => [each.proposal_id, each]),
+  );
+  const ran = new Map(executions.map((each) => [each.proposal_id, each]));
+  const known = new Map(history.map((entry) => [entry.proposal.id, entry]));
+  const all = [...proposals, ...history.map(({ proposal }) => proposal)].filter(
+    ({ purpose }) => purpose === "training",
+  );
+  const newest = new Map(all.map((proposal) => [proposal.id, proposal]));
+  return [...newest.values()]
+    .sort((one, other) => other.id - one.id)
+    .slice(0, KEPT)
+    .map((proposal) => {
+      const entry = known.get(proposal.id);
+      return {
+        proposal: entry?.proposal ?? proposal,
+        own: entry?.own ?? own.get(proposal.id) ?? null,
+        execution: entry?.execution ?? ran.get(proposal.id) ?? null,
+      };
+    });
+}
+
+export function remember(history: History, event: StreamEvent, me: string): History {
+  switch (event.type) {
+    case "snapshot":
+      return event.proposals.reduce(withProposal, history);
+    case "proposal_opened":
+    case "proposal_closed":
+      return withProposal(history, event.proposal);
+    case "feedback_stored":
+    case "feedback_relabelled":
+      return event.feedback.trainer === me ? withOwn(history, event.feedback) : history;
+    case "acknowledged":
+      return event.feedback ? withOwn(history, event.feedback) : history;
+    case "feedback_undone":
+      return event.feedback.trainer === me ? withOwn(history, event.feedback) : history;
+    case "execution_started":
+    case "execution_ended":
+      return with_(history, event.execution.proposal_id, { execution: event.execution });
+    default:
+      return history;
+  }
+}
+
+function withProposal(history: History, proposal: Proposal): History {
+  if (proposal.purpose !== "training") return history;
+  if (history.some((entry) => entry.proposal.id === proposal.id))
+    return with_(history, proposal.id, { proposal });
+  const entry: Entry = { proposal, own: null, execution: null };
+  return [entry, ...history].sort((one, other) => other.proposal.id - one.proposal.id).slice(0, KEPT);
+}
+
+/** One that was taken back, or came too late, is none. */
+export function withOwn(history: History, feedback: Feedback): History {
+  const counts = !feedback.undone_at && feedback.status === "stored";
+  return with_(history, feedback.proposal_id, { own: counts ? feedback : null });
+}
+
+function with_(history: History, proposalId: number, change: Partial<Entry>): History {
+  const at = history.findIndex(({ proposal }) => proposal.id === proposalId);
+  const entry = history[at];
+  if (!entry) return history;
+  return [...history.slice(0, at), { ...entry, ...change }, ...history.slice(at + 1)];
+}

@@ -1,0 +1,3 @@
+// Whose clicks this page sends.
+
+export const ME = "local";
