@@ -19,7 +19,19 @@ Form = Literal["csv", "jsonl"]
 MEDIA_TYPES: Mapping[Form, str] = {"csv": "text/csv; charset=utf-8", "jsonl": "application/x-ndjson"}
 
 COLUMNS = (
-    *("act", "feedback_id", "click_id", "at", "trainer", "kind", "answer", "label_now", "status", "undone_at"),
+    *(
+        "act",
+        "feedback_id",
+        "click_id",
+        "at",
+        "trainer",
+        "kind",
+        "answer",
+        "label_now",
+        "status",
+        "undone_at",
+        "estimate_shown",
+    ),
     *("proposal_id", "proposal_number", "episode", "robot", "observation_id", "skill", "parameters"),
     *("predicted_feedback", "policy_version", "verdict", "verdict_source", "close_reason", "gold", "known_answer"),
 )
@@ -68,6 +80,7 @@ def _rows(click: FeedbackRow, proposal: ProposalRow) -> list[dict[str, Any]]:
         "label_now": answer_of(click.label),
         "status": click.status,
         "undone_at": None if click.undone_at is None else click.undone_at.isoformat(),
+        "estimate_shown": click.estimate_shown,
         "proposal_id": proposal.id,
         "proposal_number": proposal.number,
         "episode": proposal.episode.number,

@@ -112,7 +112,7 @@ class TrainerFigures(_Wire):
     streak: Annotated[
         int, Field(description="newest labels in a row that neither a verdict of several nor a correction contradicts")
     ]
-    estimate: Estimate
+    estimate: Annotated[Estimate | None, Field(description="null in one's own figures: it gives known answers away")]
 
 
 class AgreementInfo(_Wire):

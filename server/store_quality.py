@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from collections import defaultdict
+from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from sqlalchemy import ColumnElement, exists, func, select
@@ -30,12 +33,26 @@ from server.store_experiments import load, now
 from server.store_labels import value_now
 from server.trainer_figures import Click, figures
 
+FRESH = 2.0
+"""Seconds for which figures are told again instead of being computed anew: many look at them at once."""
+
+
+@dataclass(frozen=True)
+class _Told:
+    """When it was computed (CLOCK_MONOTONIC seconds), and what each person may see of themselves."""
+
+    at: float
+    everybodys: LabelQuality
+    own: Mapping[str, TrainerFigures]
+
 
 class QualityStore:
     """Reads and writes of `Store.quality`."""
 
     def __init__(self, database: Database) -> None:
         self._database = database
+        self._turns: defaultdict[int, asyncio.Lock] = defaultdict(asyncio.Lock)
+        self._kept: dict[int, _Told] = {}
 
     async def mark_gold(self, proposal_id: int, body: GoldMark) -> None:
         """Know the answer to a closed proposal. See `store_gold.mark`."""
@@ -61,29 +78,21 @@ class QualityStore:
         return GoldPage(items=items, next_cursor=after)
 
     async def quality(self, experiment_id: int) -> LabelQuality:
-        """Everybody's figures, and how far they agree."""
-
-        def find(session: Session) -> tuple[list[Click], dict[int, Estimate], int]:
-            load(session, experiment_id)
-            gold = session.scalar(select(func.count(ProposalRow.id)).where(*_closed_gold(experiment_id))) or 0
-            return _clicks(session, experiment_id), _estimates(session, experiment_id), gold
-
-        clicks, estimates, gold = await self._database.read(find)
-        agreed = await asyncio.to_thread(_agreement, clicks)
-        return LabelQuality(
-            experiment_id=experiment_id, agreement=agreed, gold=gold, trainers=figures(clicks, estimates)
-        )
+        """Everybody's figures, and how far they agree; at most `FRESH` seconds old."""
+        return (await self._told(experiment_id)).everybodys
 
     async def figures_of(self, experiment_id: int, trainer: str) -> TrainerFigures | None:
-        """One trainer's own, with known answers in steps only; None where they haven't clicked."""
+        """One trainer's own, as they may see them; None where they haven't clicked."""
+        return (await self._told(experiment_id)).own.get(trainer)
 
-        def find(session: Session) -> list[TrainerFigures]:
-            load(session, experiment_id)
-            clicks, estimates = _clicks(session, experiment_id), _estimates(session, experiment_id)
-            return figures(clicks, estimates, hide_gold=True)
-
-        everybodys = await self._database.read(find)
-        return next((each for each in everybodys if each.trainer == trainer and each.kind == "person"), None)
+    async def _told(self, experiment_id: int) -> _Told:
+        """Computed once for all who look at it, beside the event loop: it takes in every click of the experiment."""
+        await self._database.read(lambda s: load(s, experiment_id) and None)
+        async with self._turns[experiment_id]:
+            kept = self._kept.get(experiment_id)
+            if kept is None or time.monotonic() - kept.at >= FRESH:
+                kept = self._kept[experiment_id] = await self._database.read(lambda s: _tell(s, experiment_id))
+            return kept
 
     async def measure(self, experiment_id: int) -> bool:
         """Estimate each trainer's reliability anew, and store it; False where there is nothing to compare yet."""
@@ -215,6 +224,19 @@ def _row(experiment_id: int, trainer_id: int, each: Reliability) -> ReliabilityR
         informative=each.informative,
         at=now(),
     )
+
+
+def _tell(session: Session, experiment_id: int) -> _Told:
+    at = time.monotonic()
+    clicks, estimates = _clicks(session, experiment_id), _estimates(session, experiment_id)
+    told = LabelQuality(
+        experiment_id=experiment_id,
+        agreement=_agreement(clicks),
+        gold=session.scalar(select(func.count(ProposalRow.id)).where(*_closed_gold(experiment_id))) or 0,
+        trainers=figures(clicks, estimates),
+    )
+    own = {each.trainer: each for each in figures(clicks, {}, own=True) if each.kind == "person"}
+    return _Told(at, told, own)
 
 
 def _agreement(clicks: list[Click]) -> AgreementInfo:

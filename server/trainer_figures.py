@@ -37,29 +37,25 @@ class Click:
     known_answer: int | None
 
 
-def figures(
-    clicks: Sequence[Click], estimates: Mapping[int, Estimate], *, hide_gold: bool = False
-) -> list[TrainerFigures]:
-    """Everybody's, by name. hide_gold: tell known answers in steps only, as the trainers themselves may see them."""
+def figures(clicks: Sequence[Click], estimates: Mapping[int, Estimate], *, own: bool = False) -> list[TrainerFigures]:
+    """Everybody's, by name. own: as each may see their own, so that no single click turns out to be a known answer."""
     mine: defaultdict[int, list[Click]] = defaultdict(list)
     theirs: defaultdict[int, list[Click]] = defaultdict(list)
     for click in clicks:
         if click.status != "practice":
             mine[click.trainer].append(click)
             theirs[click.proposal].append(click)
-    made = [_figures(own, theirs, estimates.get(who, UNKNOWN), hide_gold) for who, own in mine.items()]
+    made = [_figures(by, theirs, None if own else estimates.get(who, UNKNOWN)) for who, by in mine.items()]
     return sorted(made, key=lambda each: (each.kind, each.trainer))
 
 
-def _figures(
-    own: Sequence[Click], all_of: Mapping[int, Sequence[Click]], estimate: Estimate, hide_gold: bool
-) -> TrainerFigures:
+def _figures(own: Sequence[Click], all_of: Mapping[int, Sequence[Click]], estimate: Estimate | None) -> TrainerFigures:
     counted = [click for click in own if click.status == "stored"]
     labels = [click.label for click in counted if click.label is not None]
     gold = [click.value == click.known_answer for click in counted if click.known_answer is not None]
-    told = gold[: len(gold) // TOLD_IN * TOLD_IN] if hide_gold else gold
+    told = gold[: len(gold) // TOLD_IN * TOLD_IN] if estimate is None else gold
     shared = [click for click in own if click.value is not None and len(all_of[click.proposal]) > 1]
-    judged = [click for click in shared if click.verdict is not None and click.known_answer is None]
+    judged = [click for click in shared if click.verdict is not None]
     pairs = [
         click.value == other.value
         for click in shared
@@ -90,10 +86,9 @@ def _agrees(click: Click) -> bool:
 
 
 def _streak(counted: Sequence[Click], all_of: Mapping[int, Sequence[Click]]) -> int:
-    """Gold ones are left out: a streak that ends would give them away."""
     length = 0
     for click in reversed(counted):
-        if click.known_answer is not None or click.value is None:
+        if click.value is None:
             continue
         alone = len(all_of[click.proposal]) == 1 or click.verdict is None
         if click.label != click.value or not (alone or _agrees(click)):

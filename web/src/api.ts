@@ -3830,7 +3830,8 @@ export interface components {
              * @description newest labels in a row that neither a verdict of several nor a correction contradicts
              */
             streak: number;
-            estimate: components["schemas"]["Estimate"];
+            /** @description null in one's own figures: it gives known answers away */
+            estimate: components["schemas"]["Estimate"] | null;
         };
         /**
          * TrainerPage

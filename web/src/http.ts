@@ -12,10 +12,15 @@ import type {
   Experiment,
   ExperimentCreate,
   ExperimentPage,
+  ExperimentUpdate,
   Feedback,
+  LabelQuality,
   MetricPage,
   MetricPoint,
   Mode,
+  PracticeCard,
+  PracticeProgress,
+  PracticeResult,
   Problem,
   Proposal,
   Study,
@@ -130,6 +135,29 @@ export const calibration = (id: number) => request<Calibration>("GET", `/experim
 
 export const autoApproval = (id: number) =>
   request<AutoApprovalRecord>("GET", `/experiments/${id}/auto-approval`);
+
+/** Everybody's figures, and how far they agree. */
+export const labelQuality = (id: number) => request<LabelQuality>("GET", `/experiments/${id}/quality`);
+
+export type QualityChange = Pick<ExperimentUpdate, "gold_rate"> | Pick<ExperimentUpdate, "practice_required">;
+
+/** The stream tells of what has changed. */
+export const setQuality = (id: number, change: QualityChange) =>
+  request<Experiment>("PATCH", `/experiments/${id}`, change);
+
+/** Where the feedback can be had as a table. */
+export const feedbackTable = (id: number, form: "csv" | "jsonl") =>
+  `${ROOT}/experiments/${id}/exports/feedback?format=${form}`;
+
+export const practiceProgress = (id: number) =>
+  request<PracticeProgress>("GET", `/experiments/${id}/practice?trainer=${encodeURIComponent(ME)}`);
+
+/** The practice proposal that waits; a new one where none does. */
+export const nextPractice = (id: number) =>
+  request<PracticeCard>("POST", `/experiments/${id}/practice`, { trainer: ME });
+
+export const answerPractice = (cardId: number, answer: { click_id: string; value: Value }) =>
+  request<PracticeResult>("POST", `/practice/${cardId}/answer`, { ...answer, trainer: ME });
 
 export const evaluate = (id: number, rollouts: number) =>
   request<Evaluation>("POST", `/experiments/${id}/evaluate`, { rollouts });

@@ -10,7 +10,7 @@ import { ME } from "./me";
 import { type Click, Outbox } from "./outbox";
 import { type Action, initial, reduce, type TrainerState } from "./state";
 import { type Connection, Stream } from "./stream";
-import type { AutoApproval, Experiment, StreamEvent, Value, Verb } from "./wire";
+import type { AutoApproval, Experiment, Problem, StreamEvent, Value, Verb } from "./wire";
 
 const RESEND_MS = 3000;
 const STOP_RETRY_MS = 1000;
@@ -132,9 +132,12 @@ export class Session {
   }
 
   private complain(error: unknown): void {
-    const problem = http.problemOf(error);
-    this.dispatch({ kind: "notice", tone: "error", text: `${problem.detail} ${problem.remedy}` });
+    this.tellOf(http.problemOf(error));
   }
+
+  tellOf = (problem: Problem): void => {
+    this.dispatch({ kind: "notice", tone: "error", text: `${problem.detail} ${problem.remedy}` });
+  };
 
   private tryHalt(): void {
     clearTimeout(this.stopRetry);

@@ -311,6 +311,7 @@ function onAcknowledged(state: TrainerState, requestId: string, feedback: Feedba
   const click = feedback?.click_id === requestId ? feedback : null;
   const judged = click ? { ...state.judged, [click.proposal_id]: click.value } : state.judged;
   const next = { ...state, pending, judged };
+  if (feedback?.status === "practice") return withNotice(next, "info", t("notice.practice"));
   if (feedback?.status !== "late") return next;
   return withNotice(next, "warning", t("notice.late", { word: wordFor(feedback.value) }));
 }

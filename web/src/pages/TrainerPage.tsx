@@ -11,7 +11,9 @@ import { HaltBanner } from "../components/HaltBanner";
 import { Header } from "../components/Header";
 import { HistoryStrip } from "../components/History";
 import { JudgeBar } from "../components/JudgeBar";
+import { LabelQualityPanel } from "../components/LabelQuality";
 import { Notices } from "../components/Notices";
+import { PracticeBanner } from "../components/PracticeBanner";
 import { ProblemCard } from "../components/ProblemCard";
 import { RobotPicker } from "../components/RobotPicker";
 import { SidePanel } from "../components/SidePanel";
@@ -69,6 +71,7 @@ export function TrainerPage({ id }: { id: number }) {
       <main className="page with-dock" data-testid="trainer">
         <HaltBanner state={state} onAsk={setQuestion} onRearm={() => void session.act("rearm")} />
         <TrainerTitle experiment={experiment} session={session} onAsk={setQuestion} />
+        {experiment && <PracticeBanner experiment={experiment} />}
         <div className="trainer">
           <div className="stage">
             {state.robots.length > 1 && (
@@ -132,7 +135,12 @@ export function TrainerPage({ id }: { id: number }) {
               onTour={() => setTouring(true)}
             />
           )}
-          {experiment && <CalibrationPanel experiment={experiment} />}
+          {experiment && (
+            <div className="stage">
+              <CalibrationPanel experiment={experiment} />
+              <LabelQualityPanel experiment={experiment} onProblem={session.tellOf} />
+            </div>
+          )}
         </div>
       </main>
       {touring && <Tour onClose={() => setTouring(false)} />}
