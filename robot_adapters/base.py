@@ -12,7 +12,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Any, Protocol
+from typing import Any, Literal, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -259,6 +259,33 @@ class CameraOverlay:
     ghost: tuple[tuple[Pixel, ...], ...] = ()
     yaw: float | None = None
     workspace: tuple[Pixel, ...] = ()
+
+
+@dataclass(frozen=True)
+class Telemetry:
+    """What a robot tells of itself beside its state, for whoever keeps it safe; what it can't tell is left out.
+
+    joints: (n,) rad, base to wrist. joint_limits: lowest and highest of each, rad. gripper: (3,) m, grip site, base
+    frame. opening: m between the fingers. force: (3,) N, at the hand, in its own frame. calibration: `exact` where the
+    cameras are computed, `measured` where they were calibrated, `missing` where overlays can't be trusted.
+    calibration_detail: when and how well, in words.
+    """
+
+    joints: tuple[float, ...] = ()
+    joint_limits: tuple[tuple[float, float], ...] = ()
+    gripper: tuple[float, float, float] | None = None
+    opening: float | None = None
+    force: tuple[float, float, float] | None = None
+    calibration: Literal["exact", "measured", "missing"] | None = None
+    calibration_detail: str = ""
+
+
+@runtime_checkable
+class TellsTelemetry(Protocol):
+    """What an adapter has beside `Adapter` if it can tell more of itself."""
+
+    def telemetry(self) -> Telemetry:
+        """As it is now. Asked between two set-points too, so it must take well under a millisecond."""
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,7 @@ from robot_adapters.base import (
     SkillCall,
     SkillResult,
     SkillSpec,
+    TellsTelemetry,
 )
 from robot_adapters.tasks.base import Task
 
@@ -127,6 +128,20 @@ class AdapterContract:
             require_picture(self.start.frames[camera], camera, self.adapter.info.image_size)
             live = self.adapter.frame(camera)
             require_picture(live, camera, (live.width, live.height))
+
+    def test_what_it_tells_of_itself_is_finite_and_fits(self) -> None:
+        """Telemetry is optional; what there is of it is numbers, and joints lie within the limits told with them."""
+        if not isinstance(self.adapter, TellsTelemetry):
+            return
+        told = self.adapter.telemetry()
+        numbers = [*told.joints, *(told.gripper or ()), *(told.force or ()), told.opening or 0.0]
+        require(all(math.isfinite(n) for n in numbers), f"telemetry tells {told}: leave out what isn't known")
+        require(
+            not told.joint_limits or len(told.joint_limits) == len(told.joints),
+            f"{len(told.joints)} joints but {len(told.joint_limits)} limits: give one pair a joint, or none",
+        )
+        for at, (low, high) in zip(told.joints, told.joint_limits, strict=False):
+            require(low - 0.1 <= at <= high + 0.1, f"a joint at {at} rad is outside its limits {low} to {high}")
 
     def test_overlays_are_drawn_for_every_camera_and_skill(self) -> None:
         """Any call inside the bounds can be drawn, at or near the image."""

@@ -68,6 +68,7 @@ def task_info(name: str, kind: type[Task]) -> TaskInfo:
         skills=skills,
         subgoals=[s.description for s in task.subgoals],
         horizon=task.horizon,
+        by_hand=getattr(task, "reset_by_hand", ""),
         scene=scene_info(task),
     )
 

@@ -17,7 +17,7 @@ from typing import Any
 from robot_adapters.base import SkillCall
 from server.crew_values import Idea, Saved
 from server.post import DEATH_WINDOW, QUICK, OnChange, Post
-from server.robots import OnFrame, Robot, Stops
+from server.robots import OnFrame, OnTold, Robot, Stops
 from server.schemas import Experiment
 from server.settings import Settings
 from server.store import Store
@@ -38,14 +38,21 @@ class Crew:
     """Robots and learner of one experiment. What asks the learner raises WorkerDied if it is or goes away."""
 
     def __init__(
-        self, experiment: Experiment, store: Store, settings: Settings, *, on_frame: OnFrame | None, on_change: OnChange
+        self,
+        experiment: Experiment,
+        store: Store,
+        settings: Settings,
+        *,
+        on_frame: OnFrame | None,
+        on_change: OnChange,
+        on_told: OnTold,
     ) -> None:
         self._experiment = experiment
         self._store = store
         self._settings = settings
         self._stops = Stops(newest=1 if experiment.halted else 0)
         self.robots = tuple(
-            Robot(index, experiment, settings, self._stops, on_frame=on_frame, on_change=on_change)
+            Robot(index, experiment, settings, self._stops, on_frame=on_frame, on_change=on_change, on_told=on_told)
             for index in range(experiment.num_envs)
         )
         self.learner = Post("learner", self._catch_up, on_change)

@@ -12,7 +12,7 @@ from robot_adapters import registry
 from server import auto_approval
 from server.desk import Desk
 from server.lifecycle import MOVING
-from server.messages import EvaluationChanged, ExecutionEnded, ExperimentChanged, Snapshot
+from server.messages import EvaluationChanged, ExecutionEnded, ExperimentChanged, RobotTold, Snapshot
 from server.publisher import Publisher
 from server.runner import Runner
 from server.schemas import (
@@ -88,6 +88,11 @@ class Hub:
             execution=executions[0] if executions else None,
             executions=executions,
             undoable=undoable,
+            robots=[
+                RobotTold(robot=robot.index, telemetry=robot.telemetry)
+                for robot in (self._runners[experiment_id].crew.robots if experiment_id in self._runners else ())
+                if robot.telemetry is not None
+            ],
             server_time=datetime.now(UTC),
             boot_id=boot_id,
         )

@@ -20,6 +20,7 @@ from server.schemas import (
 )
 from server.schemas_labels import Answer, ClickId, EstimateShown, RelabelCreate, TrainerName
 from server.schemas_problems import Problem
+from server.schemas_telemetry import Telemetry
 
 # --- stream: server to client -------------------------------------------------------------------------------------
 
@@ -50,6 +51,7 @@ class Snapshot(Event):
     execution: Annotated[Execution | None, Field(description="the oldest running execution, if any")] = None
     executions: Annotated[list[Execution], Field(description="every running execution, oldest first")]
     undoable: Annotated[Feedback | None, Field(description="the newest feedback, while it can be undone")] = None
+    robots: Annotated[list[RobotTold], Field(description="what each robot told of itself last")] = []  # noqa: RUF012
     server_time: datetime
     boot_id: Annotated[str, Field(description="changes when the server restarts")]
 
@@ -136,6 +138,14 @@ class WorkerChanged(Event):
     detail: str
 
 
+class RobotTold(Event):
+    """What a robot told of itself when it was looked at, or stood still again; while it moves, frames carry it."""
+
+    type: Literal["robot_told"] = "robot_told"
+    robot: RobotIndex
+    telemetry: Telemetry
+
+
 class EvaluationChanged(Event):
     """An evaluation started, went on or ended."""
 
@@ -179,6 +189,7 @@ StreamEvent = Annotated[
     | ExecutionEnded
     | MetricsAdded
     | WorkerChanged
+    | RobotTold
     | EvaluationChanged
     | Acknowledged
     | Refused
@@ -196,6 +207,7 @@ class FrameHeader(Wire):
     height: int
     taken_at: float
     execution_id: int | None = None
+    telemetry: Annotated[Telemetry | None, Field(description="in some of them; five a second")] = None
 
 
 # --- stream: client to server -------------------------------------------------------------------------------------

@@ -10,12 +10,14 @@ from typing import Any
 
 from robot_adapters.base import SkillCall
 from server.crew_values import Done, Picture, Seen
-from server.messages import FrameHeader
+from server.messages import FrameHeader, RobotTold
 from server.post import QUICK, OnChange, Post
 from server.schemas import Experiment, Overlay, Proposal
+from server.schemas_telemetry import Telemetry
 from server.settings import Settings
 from server.worker import Worker, WorkerDied
 
+OnTold = Callable[[RobotTold], None]
 OnFrame = Callable[[FrameHeader, bytes], None]
 
 
@@ -44,12 +46,16 @@ class Robot:
         *,
         on_frame: OnFrame | None,
         on_change: OnChange,
+        on_told: OnTold,
     ) -> None:
         self.index = index
         self._experiment = experiment
         self._settings = settings
         self._stops = stops
         self._show = on_frame
+        self._told = on_told
+        self.telemetry: Telemetry | None = None
+        """What it told of itself last."""
         self.post = Post(
             "robot",
             self._build,
@@ -61,11 +67,11 @@ class Robot:
 
     async def reset(self, seed: int) -> Seen:
         """Start an episode."""
-        return _seen(await self._ask("reset", seed=seed))
+        return self._seen(await self._ask("reset", seed=seed))
 
     async def observe(self) -> Seen:
         """Look, without moving."""
-        return _seen(await self._ask("observe", QUICK))
+        return self._seen(await self._ask("observe", QUICK))
 
     async def overlay(self, call: SkillCall) -> dict[str, Overlay]:
         """The call drawn for every camera of the newest observation."""
@@ -84,6 +90,7 @@ class Robot:
             parameters=list(call.parameters),
             video=self._show is not None,
         )
+        self._hear(reply)
         violations = tuple((v["kind"], v["detail"]) for v in reply["violations"])
         fields = ("end", "arrived", "stopped", "low_level_steps", "task_success")
         times = ("first_set_point_at", "last_set_point_at")
@@ -121,9 +128,15 @@ class Robot:
         if self._show is not None:
             # which channel it came by says whose it is
             told = FrameHeader.model_validate_json(header)
+            self.telemetry = told.telemetry or self.telemetry
             self._show(told.model_copy(update={"robot": self.index}), jpeg)
 
+    def _seen(self, reply: dict[str, Any]) -> Seen:
+        self._hear(reply)
+        pictures = tuple(Picture(**view) for view in reply["views"])
+        return Seen(reply["id"], tuple(reply["state"]), reply["taken_at"], pictures, reply["success"])
 
-def _seen(reply: dict[str, Any]) -> Seen:
-    pictures = tuple(Picture(**view) for view in reply["views"])
-    return Seen(reply["id"], tuple(reply["state"]), reply["taken_at"], pictures, reply["success"])
+    def _hear(self, reply: dict[str, Any]) -> None:
+        if reply.get("telemetry") is not None:
+            self.telemetry = Telemetry.model_validate(reply["telemetry"])
+            self._told(RobotTold(robot=self.index, telemetry=self.telemetry))

@@ -52,6 +52,7 @@ class Runner:
             settings,
             on_frame=self._show if publisher.shows_frames else None,
             on_change=self._publish,
+            on_told=self._publish,
         )
         self.standing = Standing(experiment, store, publish=self._publish, halted=lambda: self.crew.halted)
         self._ledger = Ledger(

@@ -79,6 +79,7 @@ class TaskInfo(Wire):
     skills: list[Skill]
     subgoals: list[str]
     horizon: int
+    by_hand: Annotated[str, Field(description="what to do by hand where only that helps; empty: the task doesn't say")]
     scene: SceneInfo
 
 

@@ -22,6 +22,7 @@ from robot_adapters.base import (
     SkillSpec,
     StepHook,
     StopCheck,
+    Telemetry,
     Unavailable,
     check_call,
 )
@@ -133,6 +134,12 @@ class KinematicAdapter:
         if self._painter is None or camera not in CALIBRATIONS:
             raise Unavailable(f"there is no camera {camera!r}", remedy="set draw = true and use left or right")
         return self._painter.frame(camera, Snapshot.of(self._world), time.time())
+
+    def telemetry(self) -> Telemetry:
+        """Where the gripper is. There are no joints."""
+        x, y, z = self._world.gripper
+        opening = self._world.opening()
+        return Telemetry(gripper=(x, y, z), opening=opening, calibration="exact" if self.info.cameras else None)
 
     def success(self) -> bool:
         """Whether the task is solved now."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 import uuid
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,6 +22,7 @@ from robot_adapters.base import (
     SkillSpec,
     StepHook,
     StopCheck,
+    Telemetry,
     Unavailable,
     check_call,
 )
@@ -151,6 +153,11 @@ class RobosuiteAdapter:
         if camera not in self.info.cameras:
             raise Unavailable(f"there is no camera {camera!r}", remedy="set draw to true and use left or right")
         return self.cameras.frame(camera, self._settings.live_jpeg_quality)
+
+    def telemetry(self) -> Telemetry:
+        """Joints, gripper and the force at the hand, as the simulator has them; its cameras are computed."""
+        told = self.simulator.telemetry()
+        return replace(told, calibration="exact" if self.info.cameras else None)
 
     def success(self) -> bool:
         """Whether the task is solved now."""

@@ -9,7 +9,7 @@ from typing import Any, Literal
 import mujoco
 import numpy as np
 
-from robot_adapters.base import Array, Scene
+from robot_adapters.base import Array, Scene, Telemetry
 from robot_adapters.robosuite.damage import Damage
 from robot_adapters.robosuite.frames import BASE, TABLE
 from robot_adapters.robosuite.kinematics import solve
@@ -26,6 +26,8 @@ GRASPING = (
 FINGERS = ("gripper0_right_finger_joint1", "gripper0_right_finger_joint2")
 SETTLING_STEPS = 2  # set-points after a reset, for everything to come to rest where it was put
 START_NOISE = 0.02  # rad, standard deviation, robosuite's own, for a task that doesn't place the gripper
+
+FORCE = "gripper0_right_force_ee"
 
 
 class Simulator:
@@ -65,6 +67,9 @@ class Simulator:
             spec.name: int(self.model.joint(spec.name).qposadr[0]) for spec in objects if spec.shape == "slider"
         }
         self._grasping = [[self.model.geom(name).id for name in finger] for finger in GRASPING]
+        self._joints = [int(at) for at in self._robot._ref_joint_pos_indexes]
+        ranges = {int(at): limits for at, limits in zip(self.model.jnt_qposadr, self.model.jnt_range, strict=True)}
+        self._joint_limits = tuple((float(ranges[at][0]), float(ranges[at][1])) for at in self._joints)
         self._overload: str | None = None
         self.damage: str | None = None
         """The newest overload, until it is set to None."""
@@ -139,6 +144,18 @@ class Simulator:
             tilts={
                 name: math.acos(np.clip(self.data.xmat[self._bodies[name]][8], -1.0, 1.0)) for name in self._upright
             },
+        )
+
+    def telemetry(self) -> Telemetry:
+        """Joints, gripper, and the force that the hand feels."""
+        x, y, z = (float(v) for v in self.pose()[0])
+        fx, fy, fz = (float(v) for v in self.data.sensor(FORCE).data)
+        return Telemetry(
+            joints=tuple(float(self.data.qpos[at]) for at in self._joints),
+            joint_limits=self._joint_limits,
+            gripper=(x, y, z),
+            opening=self.gripper_width(),
+            force=(fx, fy, fz),
         )
 
     def close(self) -> None:

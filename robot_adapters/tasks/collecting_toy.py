@@ -99,6 +99,7 @@ class CollectingToy(Boxed):
     name = "collecting_toy"
     title = "Collecting-Toy"
     instruction = "Put the pink toy into the drawer and push the drawer closed."
+    reset_by_hand = "Put the toy back on the table in front of the drawer, and pull the drawer open by its blue handle."
     table_height = table.HEIGHT
     horizon = 8
     objects = (

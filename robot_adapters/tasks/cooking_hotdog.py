@@ -76,6 +76,9 @@ class CookingHotdog(Boxed):
     name = "cooking_hotdog"
     title = "Cooking-Hotdog"
     instruction = "Put the skillet on the stove, cook the sausage in it, and put the sausage into the bun."
+    reset_by_hand = (
+        "Put the skillet and the sausage back on the table, apart from each other, clear of the stove and of the bun."
+    )
     table_height = table.HEIGHT
     horizon = 12
     objects = (

@@ -44,6 +44,7 @@ class Reaching:
     name = "reaching"
     title = "Reaching"
     instruction = "Move the gripper into the blue area."
+    reset_by_hand = "Nothing to put back: see that the gripper is free, with nothing in its way."
     table_height = table.HEIGHT
     horizon = 4
     objects = (ObjectSpec("target", "area", RADIUS, (0.16, 0.42, 0.86), TARGET),)

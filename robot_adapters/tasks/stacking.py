@@ -61,6 +61,10 @@ class Stacking(Boxed):
     name = "stacking"
     title = "Stacking"
     instruction = "Stack the red block on the green block."
+    reset_by_hand = (
+        "Put both blocks back on the table inside the marked area, apart from each other. Take out what "
+        "the gripper holds."
+    )
     table_height = table.HEIGHT
     horizon = 6
     objects = (

@@ -77,6 +77,10 @@ class Sweeping(Boxed):
     name = "sweeping"
     title = "Sweeping"
     instruction = "Pick up the broom and sweep the pink toy into the green dustpan."
+    reset_by_hand = (
+        "Stand the broom up again in front of the robot, its blue handle upwards. Put the toy back on "
+        "the table, and empty the dustpan."
+    )
     table_height = table.HEIGHT
     horizon = 6
     objects = (

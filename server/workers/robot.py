@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from robot_adapters import registry
-from robot_adapters.base import Adapter, AdapterError, EndReason, Observation, SkillCall
+from robot_adapters.base import Adapter, AdapterError, EndReason, Observation, SkillCall, TellsTelemetry
 from server.images import Images
 from server.workers.channel import FrameSender, Pipes, Refusal, StopLatch, answer, open_pipes
 
@@ -25,6 +25,9 @@ log = logging.getLogger(__name__)
 
 FRAME_INTERVAL = 0.05
 """Seconds between two live pictures while a skill runs. Cameras take turns: 10 a second each with two cameras."""
+
+TELEMETRY_EVERY = 4
+"""Pictures from one that carries the robot's telemetry to the next: five a second."""
 
 
 class Latched(Refusal):
@@ -127,6 +130,7 @@ class Robot:
             "first_set_point_at": pictures.first,
             "last_set_point_at": pictures.last,
             "frames": pictures.sent,
+            "telemetry": telemetry_of(self.adapter),
         }
 
     def rearm(self, *, upto: int) -> dict[str, Any]:
@@ -154,6 +158,7 @@ class Robot:
             "taken_at": observation.taken_at,
             "views": views,
             "success": self.adapter.success(),
+            "telemetry": telemetry_of(self.adapter),
         }
 
 
@@ -186,7 +191,14 @@ class _Video:
         frame = self._adapter.frame(cameras[self.sent % len(cameras)])
         self.sent += 1
         header = {k: getattr(frame, k) for k in ("camera", "width", "height", "taken_at")}
+        if self.sent % TELEMETRY_EVERY == 1:
+            header["telemetry"] = telemetry_of(self._adapter)
         self._frames.send(header | {"execution_id": self._execution}, frame.jpeg)
+
+
+def telemetry_of(adapter: Adapter) -> dict[str, Any] | None:
+    """What it tells of itself, if it does."""
+    return dataclasses.asdict(adapter.telemetry()) if isinstance(adapter, TellsTelemetry) else None
 
 
 def serve(pipes: Pipes) -> None:

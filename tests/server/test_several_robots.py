@@ -106,7 +106,7 @@ async def test_while_one_robot_moves_others_are_judged_and_a_stop_reaches_them_a
 async def test_a_robot_that_starts_while_a_stop_is_latched_does_not_move(tmp_path: Path) -> None:
     async with stage(tmp_path) as s:
         experiment = await s.experiment(num_envs=2)
-        crew = Crew(experiment, s.store, s.settings, on_frame=None, on_change=lambda _: None)
+        crew = Crew(experiment, s.store, s.settings, on_frame=None, on_change=lambda _: None, on_told=lambda _: None)
         try:
             await asyncio.gather(*(robot.post.fill() for robot in crew.robots))
             crew.stop()

@@ -1369,6 +1369,26 @@ export interface webhooks {
         patch?: never;
         trace?: never;
     };
+    "stream-event/robot_told": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Event robot_told
+         * @description What a robot told of itself when it was looked at, or stood still again; while it moves, frames carry it.
+         */
+        post: operations["event_robot_told"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "stream-event/evaluation_changed": {
         parameters: {
             query?: never;
@@ -2523,6 +2543,8 @@ export interface components {
             taken_at: number;
             /** Execution Id */
             execution_id: number | null;
+            /** @description in some of them; five a second */
+            telemetry: components["schemas"]["Telemetry"] | null;
         };
         /**
          * GateDecision
@@ -3357,6 +3379,28 @@ export interface components {
             missed: number;
         };
         /**
+         * RobotTold
+         * @description What a robot told of itself when it was looked at, or stood still again; while it moves, frames carry it.
+         */
+        RobotTold: {
+            /**
+             * Seq
+             * @description the event's number in the experiment's stream, from 1 since the service started (`boot_id`); null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear what was missed
+             */
+            seq: number | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "robot_told";
+            /**
+             * Robot
+             * @description which robot of the experiment, from 0
+             */
+            robot: number;
+            telemetry: components["schemas"]["Telemetry"];
+        };
+        /**
          * SceneInfo
          * @description A task's scene, enough to draw it from the state alone. Lengths in m, robot base frame.
          */
@@ -3492,6 +3536,12 @@ export interface components {
             executions: components["schemas"]["Execution"][];
             /** @description the newest feedback, while it can be undone */
             undoable: components["schemas"]["Feedback"] | null;
+            /**
+             * Robots
+             * @description what each robot told of itself last
+             * @default []
+             */
+            robots: components["schemas"]["RobotTold"][];
             /**
              * Server Time
              * Format: date-time
@@ -3746,6 +3796,11 @@ export interface components {
             subgoals: string[];
             /** Horizon */
             horizon: number;
+            /**
+             * By Hand
+             * @description what to do by hand where only that helps; empty: the task doesn't say
+             */
+            by_hand: string;
             scene: components["schemas"]["SceneInfo"];
         };
         /**
@@ -3761,6 +3816,61 @@ export interface components {
             settings_schema: {
                 [key: string]: unknown;
             };
+        };
+        /**
+         * Telemetry
+         * @description What a robot tells of itself beside its state; what it can't tell is empty or null.
+         */
+        Telemetry: {
+            /**
+             * Joints
+             * @description rad, base to wrist
+             * @default []
+             */
+            joints: number[];
+            /**
+             * Joint Limits
+             * @description lowest and highest of each joint, rad
+             * @default []
+             */
+            joint_limits: [
+                number,
+                number
+            ][];
+            /**
+             * Gripper
+             * @description grip site, m, robot base frame
+             */
+            gripper: [
+                number,
+                number,
+                number
+            ] | null;
+            /**
+             * Opening
+             * @description m between the fingers
+             */
+            opening: number | null;
+            /**
+             * Force
+             * @description N at the hand, in its own frame
+             */
+            force: [
+                number,
+                number,
+                number
+            ] | null;
+            /**
+             * Calibration
+             * @description of the cameras: computed, calibrated, or not to be trusted
+             */
+            calibration: ("exact" | "measured" | "missing") | null;
+            /**
+             * Calibration Detail
+             * @description when and how well, in words
+             * @default
+             */
+            calibration_detail: string;
         };
         /**
          * Trainer
@@ -8095,7 +8205,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["Snapshot"] | components["schemas"]["Resumed"] | components["schemas"]["ExperimentChanged"] | components["schemas"]["ProposalOpened"] | components["schemas"]["ProposalClosed"] | components["schemas"]["FeedbackStored"] | components["schemas"]["FeedbackUndone"] | components["schemas"]["FeedbackRelabelled"] | components["schemas"]["ExecutionStarted"] | components["schemas"]["ExecutionEnded"] | components["schemas"]["MetricsAdded"] | components["schemas"]["WorkerChanged"] | components["schemas"]["EvaluationChanged"] | components["schemas"]["Acknowledged"] | components["schemas"]["Refused"] | components["schemas"]["Pong"];
+                "application/json": components["schemas"]["Snapshot"] | components["schemas"]["Resumed"] | components["schemas"]["ExperimentChanged"] | components["schemas"]["ProposalOpened"] | components["schemas"]["ProposalClosed"] | components["schemas"]["FeedbackStored"] | components["schemas"]["FeedbackUndone"] | components["schemas"]["FeedbackRelabelled"] | components["schemas"]["ExecutionStarted"] | components["schemas"]["ExecutionEnded"] | components["schemas"]["MetricsAdded"] | components["schemas"]["WorkerChanged"] | components["schemas"]["RobotTold"] | components["schemas"]["EvaluationChanged"] | components["schemas"]["Acknowledged"] | components["schemas"]["Refused"] | components["schemas"]["Pong"];
             };
         };
         responses: {
@@ -8404,6 +8514,28 @@ export interface operations {
         requestBody: {
             content: {
                 "application/json": components["schemas"]["WorkerChanged"];
+            };
+        };
+        responses: {
+            /** @description Sent over the WebSocket; there is no answer to it */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    event_robot_told: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RobotTold"];
             };
         };
         responses: {

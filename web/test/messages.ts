@@ -147,6 +147,7 @@ export function snapshot(
     proposals: change.proposal ? [change.proposal] : [],
     executions: change.execution ? [change.execution] : [],
     undoable: null,
+    robots: [],
     server_time: AT,
     boot_id: "boot-1",
     ...change,

@@ -160,7 +160,7 @@ it("draws no live picture of another robot", async () => {
       frames={frames}
     />,
   );
-  const header = { camera: "left", width: 640, height: 480, taken_at: 0, execution_id: 7 };
+  const header = { camera: "left", width: 640, height: 480, taken_at: 0, execution_id: 7, telemetry: null };
   await act(async () => {
     await frames.show({ header: { ...header, robot: 0 }, jpeg: new Blob(["other"]) });
     await frames.show({ header: { ...header, robot: 1 }, jpeg: new Blob(["own"]) });
