@@ -146,6 +146,14 @@ class RobotTold(Event):
     telemetry: Telemetry
 
 
+class IncidentKept(Event):
+    """A safety violation or an emergency stop was written down with its video: see `GET incidents/{id}`."""
+
+    type: Literal["incident_kept"] = "incident_kept"
+    incident_id: int
+    kind: Literal["damage", "manual_reset", "halt"]
+
+
 class EvaluationChanged(Event):
     """An evaluation started, went on or ended."""
 
@@ -190,6 +198,7 @@ StreamEvent = Annotated[
     | MetricsAdded
     | WorkerChanged
     | RobotTold
+    | IncidentKept
     | EvaluationChanged
     | Acknowledged
     | Refused

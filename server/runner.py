@@ -45,7 +45,7 @@ class Runner:
     def __init__(self, experiment: Experiment, store: Store, settings: Settings, publisher: Publisher) -> None:
         self._store = store
         self._publisher = publisher
-        self.witness = Witness(experiment.id, store, Images(settings.data_dir))
+        self.witness = Witness(experiment.id, store, Images(settings.data_dir), self._publish)
         self.crew = Crew(
             experiment,
             store,

@@ -5,10 +5,11 @@ from __future__ import annotations
 import asyncio
 import logging
 from collections import deque
+from collections.abc import Callable
 from typing import Any
 
 from server.images import Images
-from server.messages import FrameHeader
+from server.messages import FrameHeader, IncidentKept
 from server.store import Store, StoreError
 
 log = logging.getLogger(__name__)
@@ -20,10 +21,13 @@ SECONDS = 8.0
 class Witness:
     """Remembers the newest live pictures of one experiment, and writes them down when something goes wrong."""
 
-    def __init__(self, experiment_id: int, store: Store, images: Images) -> None:
+    def __init__(
+        self, experiment_id: int, store: Store, images: Images, publish: Callable[[IncidentKept], None]
+    ) -> None:
         self._id = experiment_id
         self._store = store
         self._images = images
+        self._publish = publish
         self._recent: deque[tuple[FrameHeader, bytes]] = deque()
         self._writing: set[asyncio.Task[None]] = set()
 
@@ -61,7 +65,10 @@ class Witness:
                 }
                 for (header, _), image in zip(seen, hashes, strict=True)
             ]
-            await self._store.add_incident(self._id, execution_id=execution_id, kind=kind, detail=detail, frames=frames)
+            kept = await self._store.add_incident(
+                self._id, execution_id=execution_id, kind=kind, detail=detail, frames=frames
+            )
+            self._publish(IncidentKept(incident_id=kept.id, kind=kept.kind))
         except StoreError:
             # the violation itself is stored with its execution, and the halt with its experiment
             log.exception("experiment %d: an incident's video could not be stored", self._id)

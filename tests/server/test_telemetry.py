@@ -32,6 +32,12 @@ async def test_a_robot_tells_of_itself_at_rest_in_motion_and_to_late_comers(tmp_
         async with live.stream(experiment) as viewer:
             (known,) = (await event(viewer, "snapshot"))["robots"]
             assert known["telemetry"]["gripper"] == after
+        async with live.stream(experiment) as viewer:
+            await live.http.post(f"/api/v1/experiments/{experiment}/halt")
+            kept = await event(viewer, "incident_kept")
+            incident = (await live.http.get(f"/api/v1/incidents/{kept['incident_id']}")).json()
+            assert (kept["kind"], incident["kind"]) == ("halt", "halt")
+            assert incident["frames"], "it had moved in the seconds before"
         task = (await live.http.get("/api/v1/tasks/stacking")).json()
         assert "blocks" in task["by_hand"]
 

@@ -1,7 +1,8 @@
 // What is going on now, in words.
 import { skillName, t } from "./i18n";
 import { isOpen } from "./robots";
-import { pendingFor, type TrainerState, wordFor } from "./state";
+import { pendingFor } from "./selectors";
+import { type TrainerState, wordFor } from "./state";
 
 export interface Activity {
   tone: "you" | "moving" | "busy" | "still" | "stopped";

@@ -1389,6 +1389,26 @@ export interface webhooks {
         patch?: never;
         trace?: never;
     };
+    "stream-event/incident_kept": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Event incident_kept
+         * @description A safety violation or an emergency stop was written down with its video: see `GET incidents/{id}`.
+         */
+        post: operations["event_incident_kept"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "stream-event/evaluation_changed": {
         parameters: {
             query?: never;
@@ -2696,6 +2716,29 @@ export interface components {
              * @description path of the JPEG below the server's root
              */
             url: string;
+        };
+        /**
+         * IncidentKept
+         * @description A safety violation or an emergency stop was written down with its video: see `GET incidents/{id}`.
+         */
+        IncidentKept: {
+            /**
+             * Seq
+             * @description the event's number in the experiment's stream, from 1 since the service started (`boot_id`); null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear what was missed
+             */
+            seq: number | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "incident_kept";
+            /** Incident Id */
+            incident_id: number;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "damage" | "manual_reset" | "halt";
         };
         /**
          * IncidentPage
@@ -8205,7 +8248,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["Snapshot"] | components["schemas"]["Resumed"] | components["schemas"]["ExperimentChanged"] | components["schemas"]["ProposalOpened"] | components["schemas"]["ProposalClosed"] | components["schemas"]["FeedbackStored"] | components["schemas"]["FeedbackUndone"] | components["schemas"]["FeedbackRelabelled"] | components["schemas"]["ExecutionStarted"] | components["schemas"]["ExecutionEnded"] | components["schemas"]["MetricsAdded"] | components["schemas"]["WorkerChanged"] | components["schemas"]["RobotTold"] | components["schemas"]["EvaluationChanged"] | components["schemas"]["Acknowledged"] | components["schemas"]["Refused"] | components["schemas"]["Pong"];
+                "application/json": components["schemas"]["Snapshot"] | components["schemas"]["Resumed"] | components["schemas"]["ExperimentChanged"] | components["schemas"]["ProposalOpened"] | components["schemas"]["ProposalClosed"] | components["schemas"]["FeedbackStored"] | components["schemas"]["FeedbackUndone"] | components["schemas"]["FeedbackRelabelled"] | components["schemas"]["ExecutionStarted"] | components["schemas"]["ExecutionEnded"] | components["schemas"]["MetricsAdded"] | components["schemas"]["WorkerChanged"] | components["schemas"]["RobotTold"] | components["schemas"]["IncidentKept"] | components["schemas"]["EvaluationChanged"] | components["schemas"]["Acknowledged"] | components["schemas"]["Refused"] | components["schemas"]["Pong"];
             };
         };
         responses: {
@@ -8536,6 +8579,28 @@ export interface operations {
         requestBody: {
             content: {
                 "application/json": components["schemas"]["RobotTold"];
+            };
+        };
+        responses: {
+            /** @description Sent over the WebSocket; there is no answer to it */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    event_incident_kept: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["IncidentKept"];
             };
         };
         responses: {

@@ -24,6 +24,11 @@ const PASSES: Record<Filter, (entry: Entry) => boolean> = {
   violation: ({ execution }) => (execution?.violations.length ?? 0) > 0,
 };
 
+/** A robot's newest motion that has ended. */
+export function lastMotion(history: History, robot: number): Entry | null {
+  return history.find(({ execution }) => execution?.robot === robot && execution.outcome !== null) ?? null;
+}
+
 export const shown = (history: History, filter: Filter): History => history.filter(PASSES[filter]);
 
 /** What REST told, under what the stream has told meanwhile. */
@@ -74,7 +79,7 @@ export function remember(history: History, event: StreamEvent, me: string): Hist
       return event.feedback.trainer === me ? withOwn(history, event.feedback) : history;
     case "execution_started":
     case "execution_ended":
-      return with_(history, event.execution.proposal_id, { execution: event.execution });
+      return withExecution(history, event.execution);
     default:
       return history;
   }
@@ -92,6 +97,10 @@ function withProposal(history: History, proposal: Proposal): History {
 export function withOwn(history: History, feedback: Feedback): History {
   const counts = !feedback.undone_at && feedback.status === "stored";
   return with_(history, feedback.proposal_id, { own: counts ? feedback : null });
+}
+
+export function withExecution(history: History, execution: Execution): History {
+  return with_(history, execution.proposal_id, { execution });
 }
 
 function with_(history: History, proposalId: number, change: Partial<Entry>): History {

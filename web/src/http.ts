@@ -14,6 +14,7 @@ import type {
   ExperimentPage,
   ExperimentUpdate,
   Feedback,
+  Incident,
   LabelQuality,
   MetricPage,
   MetricPoint,
@@ -23,6 +24,7 @@ import type {
   PracticeResult,
   Problem,
   Proposal,
+  Reported,
   Study,
   StudySummary,
   TaskInfo,
@@ -175,6 +177,15 @@ export const past = (id: number, most: number) =>
 
 export const ownFigures = (id: number) =>
   request<TrainerFigures>("GET", `/experiments/${id}/quality/mine?trainer=${encodeURIComponent(ME)}`);
+
+export const incidents = (id: number) => list<Incident>(`/experiments/${id}/incidents?limit=20`);
+
+export const report = (executionId: number, reportId: string, outcome: Reported) =>
+  request<Execution>("POST", `/executions/${executionId}/reports`, {
+    report_id: reportId,
+    outcome,
+    trainer: ME,
+  });
 
 export const relabel = (feedbackId: number, clickId: string, value: Value) =>
   request<Feedback>("POST", `/feedback/${feedbackId}/relabels`, { click_id: clickId, value, trainer: ME });

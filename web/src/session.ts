@@ -8,15 +8,19 @@ import { t } from "./i18n";
 import { newId } from "./ids";
 import { ME } from "./me";
 import { type Click, Outbox } from "./outbox";
+import { Recording } from "./recording";
 import { type Action, initial, reduce, type TrainerState } from "./state";
 import { type Connection, Stream } from "./stream";
-import type { AutoApproval, Experiment, Problem, StreamEvent, Value, Verb } from "./wire";
+import { Telling } from "./telling";
+import type { AutoApproval, Experiment, Problem, Reported, StreamEvent, Value, Verb } from "./wire";
 
 const RESEND_MS = 3000;
 const STOP_RETRY_MS = 1000;
 
 export class Session {
   readonly frames = new FrameSink();
+  readonly recording = new Recording();
+  readonly telling = new Telling();
   private readonly stream: Stream;
   private readonly outbox: Outbox;
   private resend: ReturnType<typeof setTimeout> | undefined;
@@ -31,7 +35,11 @@ export class Session {
     const scheme = location.protocol === "https:" ? "wss" : "ws";
     this.stream = new Stream(`${scheme}://${location.host}/api/v1/experiments/${id}/stream`, {
       onEvent: this.onEvent,
-      onFrame: (frame) => this.frames.show(frame),
+      onFrame: (frame) => {
+        this.recording.keep(frame);
+        if (frame.header.telemetry) this.telling.tell(frame.header.robot, frame.header.telemetry);
+        return this.frames.show(frame);
+      },
       onConnection: this.onConnection,
     });
   }
@@ -73,6 +81,18 @@ export class Session {
     this.outbox.add(click);
     this.send(click);
     this.dispatch({ kind: "pending", clicks: this.outbox.all() });
+  }
+
+  /** True once it is kept. */
+  async report(executionId: number, outcome: Reported): Promise<boolean> {
+    try {
+      const execution = await http.report(executionId, newId(), outcome);
+      this.dispatch({ kind: "reported", execution });
+      return true;
+    } catch (error) {
+      this.complain(error);
+      return false;
+    }
   }
 
   async relabel(feedbackId: number, value: Value): Promise<void> {
@@ -185,6 +205,9 @@ export class Session {
   };
 
   private onEvent = (event: StreamEvent): void => {
+    if (event.type === "robot_told") this.telling.tell(event.robot, event.telemetry);
+    if (event.type === "snapshot")
+      for (const { robot, telemetry } of event.robots) this.telling.tell(robot, telemetry);
     if (event.type === "acknowledged") this.outbox.remove(event.request_id);
     if (event.type === "feedback_stored") this.outbox.remove(event.feedback.click_id);
     if (event.type === "refused" && event.request_id) this.onRefused(event.request_id, event.problem.status);

@@ -1,6 +1,6 @@
 // All a trainer's page knows, in one reducer fed by the stream. Pure; the effects are in session.ts.
 
-import { type History, loaded, remember, withOwn } from "./history";
+import { type History, loaded, remember, withExecution, withOwn } from "./history";
 import { skillName, t } from "./i18n";
 import { ME } from "./me";
 import type { Click } from "./outbox";
@@ -46,6 +46,8 @@ export interface TrainerState {
   /** The acknowledged clicks on the robots' newest proposals. */
   judged: Judged;
   history: History;
+  /** Of this connection; 0 before there is one. */
+  newestIncident: number;
   curve: CurvePoint[];
   evaluation: Evaluation | null;
   evaluationDone: number;
@@ -71,6 +73,7 @@ export type Action =
   | { kind: "evaluation"; evaluation: Evaluation | null }
   | { kind: "past"; proposals: Proposal[]; feedback: Feedback[]; executions: Execution[] }
   | { kind: "relabelled"; feedback: Feedback }
+  | { kind: "reported"; execution: Execution }
   | { kind: "backdrop"; proposal: Proposal | null }
   | { kind: "watch"; robot: number | null }
   | { kind: "stopping"; stopping: TrainerState["stopping"] }
@@ -94,6 +97,7 @@ export const initial: TrainerState = {
   pending: [],
   judged: {},
   history: [],
+  newestIncident: 0,
   curve: [],
   evaluation: null,
   evaluationDone: 0,
@@ -121,6 +125,8 @@ function step(state: TrainerState, action: Action): TrainerState {
       const { proposals, feedback, executions } = action;
       return { ...state, history: loaded(state.history, proposals, feedback, executions, ME) };
     }
+    case "reported":
+      return { ...state, history: withExecution(state.history, action.execution) };
     case "relabelled":
       return { ...state, history: withOwn(state.history, action.feedback) };
     case "connection":
@@ -194,6 +200,9 @@ function onEvent(state: TrainerState, event: StreamEvent): TrainerState {
       return onAcknowledged(state, event.request_id, event.feedback ?? null);
     case "refused":
       return onRefused(state, event.request_id, event.problem);
+    case "incident_kept":
+      return { ...state, newestIncident: event.incident_id };
+    case "robot_told": // it is the telling's
     case "resumed":
     case "pong":
       return state;
@@ -364,37 +373,4 @@ function without(clicks: Click[], clickId: string): Click[] {
 export function wordFor(value: Value): string {
   if (value === "cant_tell") return t("judge.word.cantTell");
   return t(value > 0 ? "judge.word.good" : value < 0 ? "judge.word.bad" : "judge.word.neutral");
-}
-
-/** The click made for a proposal and not acknowledged yet. */
-export function pendingFor(state: TrainerState, proposalId: number): Value | null {
-  return state.pending.find((click) => click.proposal_id === proposalId)?.value ?? null;
-}
-
-/** What this page said about a proposal, acknowledged or not. */
-export function chosenFor(state: TrainerState, proposalId: number): Value | null {
-  return pendingFor(state, proposalId) ?? state.judged[proposalId] ?? null;
-}
-
-/** Whether a click now may judge the proposal that is drawn on the screen. */
-export function judgeable(state: TrainerState, drawnId: number | null): boolean {
-  const { proposal, experiment } = state;
-  return (
-    proposal !== null &&
-    experiment !== null &&
-    isOpen(proposal) &&
-    proposal.id === drawnId &&
-    proposal.purpose !== "evaluation" &&
-    !experiment.teacher &&
-    experiment.lifecycle === "running" &&
-    !experiment.halted &&
-    chosenFor(state, proposal.id) === null
-  );
-}
-
-/** Whether the overlay says something true about what happens next. */
-export function overlayWanted(state: TrainerState): boolean {
-  const { proposal, experiment } = state;
-  if (!proposal || state.live !== null) return false;
-  return isOpen(proposal) || (proposal.close_reason === "judged" && experiment?.lifecycle === "running");
 }

@@ -3,7 +3,8 @@
 import { useEffect, useState } from "react";
 import { t } from "./i18n";
 import { queueOf } from "./robots";
-import { chosenFor, judgeable, type TrainerState } from "./state";
+import { chosenFor, judgeable } from "./selectors";
+import type { TrainerState } from "./state";
 import { useDrawnAt } from "./useDrawnAt";
 import type { Value } from "./wire";
 

@@ -12,6 +12,7 @@ export type Mode = Schemas["Mode"];
 export type Proposal = Schemas["Proposal"];
 export type SceneInfo = Schemas["SceneInfo"];
 export type TrainerFigures = Schemas["TrainerFigures"];
+export type Telemetry = Schemas["Telemetry"];
 export type Incident = Schemas["Incident"];
 export type Reported = Schemas["ReportCreate"]["outcome"];
 export type View = Schemas["View"];
@@ -55,6 +56,8 @@ export type StreamEvent = Numbered<
   | Schemas["ExecutionEnded"]
   | Schemas["MetricsAdded"]
   | Schemas["WorkerChanged"]
+  | Schemas["RobotTold"]
+  | Schemas["IncidentKept"]
   | Schemas["EvaluationChanged"]
   | Schemas["Acknowledged"]
   | Schemas["Refused"]
@@ -72,7 +75,7 @@ export type ClientMessage =
 /** −1 bad, 0 neutral, +1 good, or that nothing can be told from the view. */
 export type Value = Schemas["Feedback"]["value"];
 
-export type Verb = "start" | "pause" | "resume" | "finish" | "halt" | "rearm";
+export type Verb = "start" | "pause" | "resume" | "finish" | "reset" | "halt" | "rearm";
 
 export type StudySummary = Schemas["StudySummary"];
 export type Study = Schemas["Study"];

@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { activity } from "../src/activity";
-import { chosenFor, initial, judgeable, overlayWanted, reduce, type TrainerState } from "../src/state";
+import { chosenFor, judgeable, overlayWanted } from "../src/selectors";
+import { initial, reduce, type TrainerState } from "../src/state";
 import type { StreamEvent } from "../src/wire";
 import { execution, experiment, feedback, proposal, snapshot } from "./messages";
 

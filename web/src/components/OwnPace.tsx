@@ -5,6 +5,7 @@ import { t } from "../i18n";
 import { decimal, percent } from "../i18n/numbers";
 import { type Pace, perMinute } from "../pace";
 import { useLatest } from "../useLatest";
+import type { TrainerFigures } from "../wire";
 
 const REFRESH_MS = 5000;
 
@@ -15,7 +16,10 @@ export function OwnPace({ id, feedback, pace }: { id: number; feedback: number; 
     return () => clearInterval(timer);
   }, []);
   // Only a click of this tab may have changed one's own figures.
-  const own = useLatest(() => http.ownFigures(id), `${id}:${Math.floor(feedback / 5)}`);
+  const own = useLatest<TrainerFigures | null>(
+    () => (feedback > 0 ? http.ownFigures(id) : Promise.resolve(null)),
+    `${id}:${Math.ceil(feedback / 5)}`,
+  );
   const rate = perMinute(pace, Math.max(now, pace.clicks.at(-1) ?? 0));
   const agreement = own?.with_others;
   return (

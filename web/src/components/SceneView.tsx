@@ -1,32 +1,16 @@
 // The third view: the scene drawn from the state, to be turned around, because one picture doesn't tell distances.
 import { useEffect, useRef, useState } from "react";
-import * as http from "../http";
 import { t } from "../i18n";
 import { decimal } from "../i18n/numbers";
 import type { SceneDrawing } from "../scene";
 import { useTheme } from "../theme";
-import type { Proposal, TaskInfo } from "../wire";
+import type { Proposal, SceneInfo } from "../wire";
 import { TurnLeft, TurnRight, Whole } from "./icons";
 
 const TURN = Math.PI / 8;
 
-function useTask(name: string): TaskInfo | null {
-  const [task, setTask] = useState<TaskInfo | null>(null);
-  useEffect(() => {
-    let gone = false;
-    http.task(name).then(
-      (found) => gone || setTask(found),
-      () => undefined, // the view just stays empty
-    );
-    return () => {
-      gone = true;
-    };
-  }, [name]);
-  return task;
-}
-
 export interface SceneViewProps {
-  task: string;
+  scene: SceneInfo | null;
   proposal: Proposal | null;
   /** Whether what it proposes may be drawn. */
   overlay: boolean;
@@ -39,12 +23,11 @@ function inWords({ parameters }: Proposal): string {
     .join(", ");
 }
 
-export function SceneView({ task, proposal, overlay }: SceneViewProps) {
+export function SceneView({ scene, proposal, overlay }: SceneViewProps) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const drawing = useRef<SceneDrawing | null>(null);
   const [ready, setReady] = useState(false);
   const [failed, setFailed] = useState(false);
-  const scene = useTask(task)?.scene ?? null;
   const theme = useTheme();
   // biome-ignore lint/correctness/useExhaustiveDependencies: another theme has other colours
   useEffect(() => {

@@ -1,40 +1,23 @@
 // What stands beside the views: counters, what the agent thinks, mode, evaluation.
 
-import { useEffect, useState } from "react";
-import * as http from "../http";
 import { t } from "../i18n";
 import type { Pace } from "../pace";
 import type { Session } from "../session";
 import { useSettings } from "../settings";
 import type { TrainerState } from "../state";
-import type { Experiment, Mode, Proposal } from "../wire";
+import type { Experiment, Mode, Proposal, TaskInfo } from "../wire";
 import { AutoApprovalPanel } from "./AutoApproval";
 import { Counters } from "./Counters";
 import type { Question } from "./Dialog";
 import { EvaluationPanel } from "./Evaluation";
 import { ModeSwitch } from "./ModeSwitch";
+import { OperatorPanel } from "./OperatorPanel";
 import { OwnPace } from "./OwnPace";
 import { SceneView } from "./SceneView";
 import { Thought } from "./Thought";
 import { TourOffer } from "./Tour";
 
 const ROLLOUTS = 10; // as in the paper's evaluations
-
-/** Whether the adapter is a simulator; unknown counts as no. */
-function useSimulated(adapter: string): boolean {
-  const [simulated, setSimulated] = useState(false);
-  useEffect(() => {
-    let gone = false;
-    http.adapterList().then(
-      (adapters) => gone || setSimulated(adapters.some((each) => each.name === adapter && each.simulated)),
-      () => undefined, // the panel just stays away
-    );
-    return () => {
-      gone = true;
-    };
-  }, [adapter]);
-  return simulated;
-}
 
 function obstacleTo(experiment: Experiment): string | null {
   if (experiment.halted) return t("evaluation.halted");
@@ -51,13 +34,15 @@ export interface SidePanelProps {
   /** Whether what it proposes is drawn. */
   overlay: boolean;
   pace: Pace;
+  task: TaskInfo | null;
+  simulated: boolean | null;
   onTour: () => void;
 }
 
 export function SidePanel(props: SidePanelProps) {
-  const { state, experiment, proposal, session, onAsk } = props;
+  const { state, experiment, proposal, session, onAsk, task } = props;
+  const simulated = props.simulated ?? false; // unknown counts as no
   const { scene } = useSettings();
-  const simulated = useSimulated(experiment.adapter);
   const changeMode = (mode: Mode) => {
     if (mode === "propose_only") void session.setMode(mode);
     else
@@ -72,10 +57,17 @@ export function SidePanel(props: SidePanelProps) {
   return (
     <aside className="side" aria-label={t("title.side")}>
       <TourOffer onTour={props.onTour} />
-      {scene && <SceneView task={experiment.task} proposal={proposal} overlay={props.overlay} />}
+      {scene && <SceneView scene={task?.scene ?? null} proposal={proposal} overlay={props.overlay} />}
       <Thought proposal={proposal} />
       <OwnPace id={experiment.id} feedback={experiment.counters.feedback} pace={props.pace} />
       <Counters counters={experiment.counters} />
+      <OperatorPanel
+        state={state}
+        experiment={experiment}
+        session={session}
+        task={task}
+        simulated={simulated}
+      />
       <ModeSwitch mode={experiment.mode} onChange={changeMode} />
       {simulated && (
         <AutoApprovalPanel

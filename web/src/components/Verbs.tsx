@@ -2,7 +2,7 @@
 import { t } from "../i18n";
 import type { Experiment, Verb } from "../wire";
 
-type Shown = Exclude<Verb, "halt" | "rearm">;
+type Shown = Exclude<Verb, "reset" | "halt" | "rearm">;
 
 const ALLOWED: Record<Experiment["lifecycle"], Shown[]> = {
   created: ["start"],

@@ -12,7 +12,9 @@ import { Header } from "../components/Header";
 import { HistoryStrip } from "../components/History";
 import { JudgeBar } from "../components/JudgeBar";
 import { LabelQualityPanel } from "../components/LabelQuality";
+import { LastMotion } from "../components/LastMotion";
 import { Notices } from "../components/Notices";
+import { NeedsHand, ResetDialog } from "../components/OperatorPanel";
 import { PracticeBanner } from "../components/PracticeBanner";
 import { ProblemCard } from "../components/ProblemCard";
 import { RobotPicker } from "../components/RobotPicker";
@@ -22,21 +24,39 @@ import { Tour } from "../components/Tour";
 import { TrainerTitle } from "../components/TrainerTitle";
 import { useDrawn, Views } from "../components/Views";
 import { ViewTools } from "../components/ViewTools";
+import { type Entry, lastMotion } from "../history";
 import { t } from "../i18n";
 import { ImageStore } from "../images";
 import { queueOf } from "../robots";
+import { chosenFor, overlayWanted } from "../selectors";
 import { useSession } from "../session";
 import { useSettings } from "../settings";
-import { chosenFor, overlayWanted } from "../state";
+import { useSimulated, useTask } from "../useCatalogue";
 import { useJudging } from "../useJudging";
 import { usePace } from "../usePace";
-import type { Value } from "../wire";
+import type { Experiment, Reported, Value } from "../wire";
 import type { Swipe } from "../zoom";
+
+/** A real robot waits for a hand: its last motion ended so, and nothing has begun since. */
+function handWanted(experiment: Experiment | null, last: Entry | null): boolean {
+  const kinds = last?.execution?.violations.map(({ kind }) => kind);
+  return experiment?.lifecycle === "paused" && (kinds?.includes("manual_reset") ?? false);
+}
+
+const stopQuestion = (act: () => void): Question => ({
+  title: t("motion.stop"),
+  text: t("motion.stopWhat"),
+  yes: t("motion.stopYes"),
+  danger: true,
+  testId: "stop-confirm",
+  act,
+});
 
 const STROKES: Record<Swipe, Value> = { left: -1, up: 0, right: 1 };
 
 export function TrainerPage({ id }: { id: number }) {
   const { state, session } = useSession(id);
+  const [resetting, setResetting] = useState(false);
   const [touring, setTouring] = useState(false);
   const [question, setQuestion] = useState<Question | null>(null);
   const settings = useSettings();
@@ -45,6 +65,9 @@ export function TrainerPage({ id }: { id: number }) {
   const next = queueOf(state.robots, state.judged).find(({ id }) => id !== state.proposal?.id) ?? null;
   const { drawn, failed } = useDrawn(images, state.proposal, next);
   const { experiment, proposal, undoable, live } = state;
+
+  const task = useTask(experiment?.task);
+  const simulated = useSimulated(experiment?.adapter);
 
   // An overlay is shown only on its own pictures, so nothing is drawn for a proposal whose pictures aren't here.
   const current = drawn !== null && drawn === proposal;
@@ -62,6 +85,13 @@ export function TrainerPage({ id }: { id: number }) {
 
   if (state.fatal) return <ProblemCard problem={state.fatal} />;
   const now = activity(state, current);
+  const last = lastMotion(state.history, state.shown);
+  const report = (executionId: number, outcome: Reported) =>
+    void session.report(executionId, outcome).then((kept) => {
+      if (kept && outcome === "needs_reset") setResetting(true);
+      if (kept && outcome === "damage" && !experiment?.halted)
+        setQuestion(stopQuestion(() => session.halt()));
+    });
   return (
     <>
       <Header back stop>
@@ -70,6 +100,9 @@ export function TrainerPage({ id }: { id: number }) {
       <StopButton stopping={state.stopping !== "no"} onStop={() => session.halt()} />
       <main className="page with-dock" data-testid="trainer">
         <HaltBanner state={state} onAsk={setQuestion} onRearm={() => void session.act("rearm")} />
+        {simulated === false && handWanted(experiment, last) && (
+          <NeedsHand onOpen={() => setResetting(true)} />
+        )}
         <TrainerTitle experiment={experiment} session={session} onAsk={setQuestion} />
         {experiment && <PracticeBanner experiment={experiment} />}
         <div className="trainer">
@@ -117,6 +150,7 @@ export function TrainerPage({ id }: { id: number }) {
                 onUndo={() => undoable && session.undo(undoable.id)}
               />
             </div>
+            <LastMotion last={last} recording={session.recording} onReport={report} />
             <HistoryStrip
               history={state.history}
               onRelabel={(feedbackId, value) => void session.relabel(feedbackId, value)}
@@ -132,6 +166,8 @@ export function TrainerPage({ id }: { id: number }) {
               onAsk={setQuestion}
               overlay={overlay}
               pace={pace.pace}
+              task={task}
+              simulated={simulated}
               onTour={() => setTouring(true)}
             />
           )}
@@ -143,6 +179,14 @@ export function TrainerPage({ id }: { id: number }) {
           )}
         </div>
       </main>
+      {resetting && (
+        <ResetDialog
+          task={task}
+          simulated={simulated ?? false}
+          onReset={() => void session.act("reset")}
+          onClose={() => setResetting(false)}
+        />
+      )}
       {touring && <Tour onClose={() => setTouring(false)} />}
       <Notices notices={state.notices} onDismiss={session.dismiss} />
       {question && <Confirm question={question} onClose={() => setQuestion(null)} />}

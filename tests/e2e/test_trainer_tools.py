@@ -1,0 +1,191 @@
+"""What a trainer and an operator have around the judging: what is drawn, the past, slow motion, reports, incidents."""
+
+from __future__ import annotations
+
+from playwright.sync_api import Page, expect
+
+from tests.e2e.test_pages import PHONE, accessible, fits
+from tests.e2e.trainer import START_MS, Opener, TrainerPage
+from tests.live import LiveService
+
+WATCHED = {"adapter_settings": {"step_seconds": 0.02}}
+"""Slow enough to be filmed."""
+
+
+def approve_the_first_good(trainer: TrainerPage) -> int:
+    """Reject until something good is proposed, approve that, and wait for its end; its id."""
+    proposal = trainer.drawn()
+    while trainer.stored(proposal)["predicted_feedback"] < 0:
+        trainer.press(-1)
+        proposal = trainer.drawn(proposal)
+    trainer.press(1)
+    expect(trainer.test_id("last-motion")).to_be_visible(timeout=START_MS)
+    return proposal
+
+
+def test_what_is_drawn_can_be_chosen_and_is_remembered(page: Page, opener: Opener) -> None:
+    trainer = opener(preset="stubborn")
+    first = trainer.drawn()
+    left = trainer.test_id("view-left")
+    for name, key in (("ghost", "g"), ("workspace", "w")):
+        expect(left.get_by_test_id(name)).to_have_count(0)
+        page.keyboard.press(key)
+        expect(left.get_by_test_id(name)).to_have_count(1)
+    # the ghost is the stored one, at the dot
+    box, dot = left.get_by_test_id("ghost").bounding_box(), left.get_by_test_id("dot").bounding_box()
+    assert box is not None
+    assert dot is not None
+    assert box["x"] < dot["x"] < box["x"] + box["width"]
+    left.get_by_test_id("dot").focus()
+    expect(left.get_by_test_id("explained")).to_have_text("Where the skill acts")
+    before = left.get_by_test_id("dot").bounding_box()
+    trainer.test_id("nearer-left").click()
+    after = left.get_by_test_id("dot").bounding_box()
+    assert before is not None
+    assert after is not None
+    assert after["width"] > 1.3 * before["width"], "the overlay is zoomed with its picture"
+
+    page.keyboard.press("e")
+    expect(trainer.test_id("predicted-feedback")).to_have_count(0)
+    trainer.press(-1)
+    second = trainer.drawn(first)
+    page.keyboard.press("e")
+    trainer.press(-1)
+    trainer.drawn(second)
+    rows = trainer.service.rows("SELECT estimate_shown FROM feedback ORDER BY id DESC LIMIT 2")
+    assert [row["estimate_shown"] for row in rows] == [1, 0]
+    page.reload()
+    expect(left.get_by_test_id("ghost")).to_have_count(1)
+
+
+def test_the_third_view_is_drawn_from_the_state(page: Page, opener: Opener) -> None:
+    trainer = opener(preset="stubborn")
+    trainer.drawn()
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(request.url))
+    page.keyboard.press("d")
+    scene = trainer.test_id("scene")
+    expect(scene).to_have_attribute("data-ready", "true", timeout=START_MS)
+    assert any("scene" in url for url in asked), "three.js comes only when it is asked for"
+    assert "x 0." in (scene.locator("canvas").get_attribute("aria-label") or "")
+    scene.get_by_role("button", name="Turn the scene left").click()
+    accessible(page)
+
+
+def test_the_past_is_looked_at_and_corrected(page: Page, opener: Opener) -> None:
+    trainer = opener(preset="stubborn")
+    proposal = trainer.drawn()
+    for value in (-1, 0):
+        trainer.press(value)
+        proposal = trainer.drawn(proposal)
+    past = trainer.test_id("past")
+    expect(past).to_have_count(2)
+    expect(past.first).to_have_attribute("data-label", "neutral")
+    trainer.test_id("filter-bad").click()
+    expect(past).to_have_count(1)
+    past.first.click()
+    accessible(page)
+    trainer.test_id("relabel-good").click()
+    expect(page.get_by_role("dialog")).to_have_count(0)
+    expect(past).to_have_count(0)
+    trainer.test_id("filter-good").click()
+    expect(past.first).to_have_attribute("data-label", "good")
+    judged = int(past.first.get_attribute("data-id") or 0)
+    (feedback,) = trainer.service.get(f"/proposals/{judged}/feedback")["items"]
+    assert (feedback["value"], feedback["label"]) == (-1, 1)
+    page.reload()
+    expect(past).to_have_count(2)
+
+
+def test_a_motion_is_seen_again_reported_and_kept_where_it_was_stopped(page: Page, opener: Opener) -> None:
+    trainer = opener(**WATCHED)
+    approve_the_first_good(trainer)
+    trainer.test_id("replay").click()
+    player = trainer.test_id("player")
+    expect(player.locator("img")).to_have_count(2)
+    expect(player).not_to_have_attribute("data-time", "0.00")
+    accessible(page)
+    page.get_by_role("dialog").get_by_role("button", name="Close").click()
+    trainer.test_id("report-failed").click()
+    expect(trainer.test_id("report-failed")).to_have_attribute("aria-pressed", "true")
+    (execution, *_) = trainer.service.get(f"{trainer.path}/executions")["items"]
+    assert [report["outcome"] for report in execution["reports"]] == ["failed"]
+
+    trainer.test_id("operator").locator("summary").click()
+    expect(trainer.test_id("gripper-at")).to_contain_text("cm")
+    expect(trainer.test_id("camera-calibration")).to_contain_text("exact")
+    trainer.test_id("report-damage").click()
+    trainer.test_id("stop-confirm").click()
+    expect(trainer.test_id("halted")).to_be_visible()
+    trainer.test_id("incident").first.click()
+    expect(trainer.test_id("player").locator("img").first).to_be_visible()
+    page.get_by_role("dialog").get_by_role("button", name="Close").click()
+    trainer.test_id("rearm").click()
+    trainer.test_id("rearm-confirm").click()
+    trainer.test_id("reset").click()
+    expect(page.get_by_role("dialog")).to_contain_text("simulator")
+    trainer.test_id("reset-confirm").click()
+    expect(page.get_by_role("dialog")).to_have_count(0)
+
+
+def test_a_phone_judges_by_strokes(page: Page, opener: Opener) -> None:
+    page.set_viewport_size({"width": PHONE["width"], "height": PHONE["height"]})
+    trainer = opener(preset="stubborn")
+    proposal = trainer.drawn()
+    judged = []
+    for across, up in ((-120, 0), (0, -120), (-120, 0)):
+        trainer.looked_at()
+        stroke(page, across, up)
+        judged.append(proposal)
+        proposal = trainer.drawn(proposal)
+    values = [trainer.service.get(f"/proposals/{each}/feedback")["items"][0]["value"] for each in judged]
+    assert values == [-1, 0, -1]
+    trainer.test_id("undo").click()
+    trainer.page.wait_for_function(
+        "last => document.querySelector('[data-testid=views]').dataset.proposalId === last", arg=str(judged[-1])
+    )
+    stroke(page, 30, 10)  # a slip of the finger means nothing
+    assert fits(page)
+    assert trainer.counters()["feedback"] == 2
+
+
+def stroke(page: Page, across: float, up: float) -> None:
+    """A finger on the left view, as the browser's own input sends it."""
+    box = page.get_by_test_id("view-left").bounding_box()
+    assert box is not None
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    session = page.context.new_cdp_session(page)
+    session.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [{"x": x, "y": y}]})
+    for part in (0.3, 0.6, 1.0):
+        point = {"x": x + part * across, "y": y + part * up}
+        session.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": [point]})
+    session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    session.detach()
+
+
+def test_the_tour_explains_every_part_by_keyboard_and_leaves_stop_free(
+    page: Page, opener: Opener, service: LiveService
+) -> None:
+    trainer = opener(preset="stubborn")
+    trainer.drawn()
+    expect(trainer.test_id("tour-offer")).to_be_visible()
+    trainer.looked_at()
+    page.keyboard.press("?")
+    card = trainer.test_id("tour-card")
+    seen: list[str] = []
+    for _ in range(10):
+        seen.append(card.get_attribute("data-step") or "")
+        if len(seen) == 2:
+            accessible(page)
+        page.keyboard.press("1")  # judges nothing as long as the tour is open
+        page.keyboard.press("Enter")
+    assert len(set(seen)) == 10
+    expect(card).to_have_count(0)
+    expect(trainer.test_id("tour-offer")).to_have_count(0)
+    assert trainer.counters()["feedback"] == 0
+    page.keyboard.press("?")
+    expect(card).to_be_visible()
+    page.keyboard.press("Escape")
+    page.keyboard.press("Escape")
+    expect(trainer.test_id("halted")).to_be_visible()
+    assert service.get(trainer.path)["halted"] is True

@@ -1,0 +1,37 @@
+// What the page asks of its state. Pure.
+import { isOpen } from "./robots";
+import type { TrainerState } from "./state";
+import type { Value } from "./wire";
+
+/** The click made for a proposal and not acknowledged yet. */
+export function pendingFor(state: TrainerState, proposalId: number): Value | null {
+  return state.pending.find((click) => click.proposal_id === proposalId)?.value ?? null;
+}
+
+/** What this page said about a proposal, acknowledged or not. */
+export function chosenFor(state: TrainerState, proposalId: number): Value | null {
+  return pendingFor(state, proposalId) ?? state.judged[proposalId] ?? null;
+}
+
+/** Whether a click now may judge the proposal that is drawn on the screen. */
+export function judgeable(state: TrainerState, drawnId: number | null): boolean {
+  const { proposal, experiment } = state;
+  return (
+    proposal !== null &&
+    experiment !== null &&
+    isOpen(proposal) &&
+    proposal.id === drawnId &&
+    proposal.purpose !== "evaluation" &&
+    !experiment.teacher &&
+    experiment.lifecycle === "running" &&
+    !experiment.halted &&
+    chosenFor(state, proposal.id) === null
+  );
+}
+
+/** Whether the overlay says something true about what happens next. */
+export function overlayWanted(state: TrainerState): boolean {
+  const { proposal, experiment } = state;
+  if (!proposal || state.live !== null) return false;
+  return isOpen(proposal) || (proposal.close_reason === "judged" && experiment?.lifecycle === "running");
+}
