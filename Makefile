@@ -1,6 +1,6 @@
 # make run     sets up, starts the service, prints the URL       make check   lint and types
 # make test    sets up, passes every check and test              make bench   the benchmarks
-# Everything it makes lies in .venv, web/node_modules and server/static; `make clean` removes that.
+# Everything it makes lies in .venv, .simulators, web/node_modules and server/static; `make clean` removes that.
 
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
@@ -53,13 +53,17 @@ server/static/index.html: $(WEB_SOURCES) hatch_build.py scripts/node.py | $(VENV
 
 # --- develop -----------------------------------------------------------------------------------------------------
 
-setup-dev: $(VENV)/.installed-dev web/node_modules/.installed-dev server/static/index.html
+setup-dev: $(VENV)/.installed-dev web/node_modules/.installed-dev .simulators/.installed server/static/index.html
 
 $(VENV)/.installed-dev: $(INSTALL_FROM) | $(VENV)/bin/python
 	@bash scripts/system.sh test $(PYTHON)
 	@echo "==> Installing, with everything that checks and tests need"
 	@bash scripts/install.sh $(VENV) dev
 	@touch $(VENV)/.installed $@
+
+.simulators/.installed: scripts/simulators.sh | $(VENV)/.installed-dev
+	@bash scripts/simulators.sh $(PYTHON)
+	@mkdir -p .simulators && touch $@
 
 web/node_modules/.installed-dev: web/package.json web/package-lock.json | $(VENV)/.installed-dev
 	@echo "==> Installing what the web page's checks and tests need"
@@ -103,5 +107,5 @@ api: setup-dev  ## writes web/src/api.ts from the service's OpenAPI document
 	@$(NPM) run api
 
 clean:
-	rm -rf $(VENV) web/node_modules server/static test-results dist .mypy_cache .ruff_cache .pytest_cache .hypothesis
+	rm -rf $(VENV) .simulators web/node_modules server/static test-results dist .mypy_cache .ruff_cache .pytest_cache .hypothesis
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -268,7 +268,7 @@ class Telemetry:
     joints: (n,) rad, base to wrist. joint_limits: lowest and highest of each, rad. gripper: (3,) m, grip site, base
     frame. opening: m between the fingers. force: (3,) N, at the hand, in its own frame. calibration: `exact` where the
     cameras are computed, `measured` where they were calibrated, `missing` where overlays can't be trusted.
-    calibration_detail: when and how well, in words.
+    calibration_detail: when and how well, in words. mode: what a real arm is doing. words: the same for a trainer.
     """
 
     joints: tuple[float, ...] = ()
@@ -278,6 +278,8 @@ class Telemetry:
     force: tuple[float, float, float] | None = None
     calibration: Literal["exact", "measured", "missing"] | None = None
     calibration_detail: str = ""
+    mode: Literal["idle", "moving", "reflex", "user_stopped", "disconnected"] | None = None
+    words: str = ""
 
 
 @runtime_checkable

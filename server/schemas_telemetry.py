@@ -22,3 +22,8 @@ class Telemetry(BaseModel):
         Field(description="of the cameras: computed, calibrated, or not to be trusted"),
     ] = None
     calibration_detail: Annotated[str, Field(description="when and how well, in words")] = ""
+    mode: Annotated[
+        Literal["idle", "moving", "reflex", "user_stopped", "disconnected"] | None,
+        Field(description="what a real arm is doing; null for a simulated one"),
+    ] = None
+    words: Annotated[str, Field(description="the same in words that a trainer understands")] = ""

@@ -18,6 +18,7 @@ GENERATED = {"web/src/api.ts"}
 LONGEST = 400
 VAGUE_NAMES = {"utils", "util", "helpers", "helper", "common", "misc", "manager", "managers"}
 SIMULATOR = {"mujoco", "robosuite"}
+DRIVERS = {"franka", "franky", "pylibfranka", "zmq"}
 
 
 @cache
@@ -85,6 +86,13 @@ def test_only_the_robosuite_adapter_imports_the_simulator() -> None:
     assert not offenders
 
 
+def test_only_the_franka_adapter_imports_robot_drivers() -> None:
+    production = [pair for folder in ("agent/", "server/", "robot_adapters/") for pair in importers(folder)]
+    assert not {f for f, m in production if top(m) in DRIVERS and not f.startswith("robot_adapters/franka/")}
+    foreign = {(f, m) for f, m in production if m.startswith("robot_adapters.franka") and not f.startswith("robot_ad")}
+    assert not {(f, m) for f, m in foreign if f != "server/cli_robot.py"}
+
+
 def test_adapters_know_nothing_of_learning_http_or_sql() -> None:
     foreign = {"agent", "server", "torch", "fastapi", "starlette", "uvicorn", "sqlalchemy", "alembic", "websockets"}
     assert not {(f, m) for f, m in importers("robot_adapters/") if top(m) in foreign}
@@ -114,13 +122,13 @@ def test_the_server_process_loads_neither_torch_nor_a_simulator() -> None:
     names = [name.removesuffix(".py").replace("/", ".").removesuffix(".__init__") for name, _ in modules()]
     server = [n for n in names if top(n) == "server" and not n.startswith(("server.workers", "server.migrations"))]
     assert "server.app" in server
-    assert not loaded_by("import " + ", ".join(server)) & {"torch", *SIMULATOR}
+    assert not loaded_by("import " + ", ".join(server)) & {"torch", *SIMULATOR, *DRIVERS}
 
 
 @pytest.mark.parametrize("group", ["seed.tasks", "seed.adapters", "seed.algorithms", "seed.teachers"])
 def test_plug_ins_are_light_until_they_are_used(group: str) -> None:
     loading = f"from importlib.metadata import entry_points\nfor e in entry_points(group={group!r}): e.load()"
-    assert not loaded_by(loading) & {"torch", *SIMULATOR}
+    assert not loaded_by(loading) & {"torch", *SIMULATOR, *DRIVERS}
 
 
 def test_every_python_file_says_what_it_is_for() -> None:

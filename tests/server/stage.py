@@ -34,11 +34,11 @@ class Recorder:
     frames: list[tuple[FrameHeader, bytes]] = field(default_factory=list)
     _changed: asyncio.Event = field(default_factory=asyncio.Event)
 
-    def publish(self, experiment_id: int, event: StreamEvent) -> None:  # noqa: ARG002 - the protocol's signature
+    def publish(self, experiment_id: int, event: StreamEvent) -> None:
         self.events.append(event)
         self._changed.set()
 
-    def publish_frame(self, experiment_id: int, header: FrameHeader, jpeg: bytes) -> None:  # noqa: ARG002 - as above
+    def publish_frame(self, experiment_id: int, header: FrameHeader, jpeg: bytes) -> None:
         self.frames.append((header, jpeg))
         self._changed.set()
 

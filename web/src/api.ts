@@ -3914,6 +3914,17 @@ export interface components {
              * @default
              */
             calibration_detail: string;
+            /**
+             * Mode
+             * @description what a real arm is doing; null for a simulated one
+             */
+            mode: ("idle" | "moving" | "reflex" | "user_stopped" | "disconnected") | null;
+            /**
+             * Words
+             * @description the same in words that a trainer understands
+             * @default
+             */
+            words: string;
         };
         /**
          * Trainer

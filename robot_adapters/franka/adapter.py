@@ -1,0 +1,345 @@
+"""The Franka `Adapter`: a real arm, what it sees, and the skills that simulation uses, unchanged."""
+
+from __future__ import annotations
+
+import logging
+import time
+import uuid
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from importlib.metadata import entry_points
+from typing import cast
+
+import numpy as np
+
+from robot_adapters.base import (
+    AdapterInfo,
+    Array,
+    CameraFrame,
+    CameraOverlay,
+    EndReason,
+    Observation,
+    SafetyViolation,
+    Scene,
+    SkillCall,
+    SkillResult,
+    SkillSpec,
+    StepHook,
+    StopCheck,
+    Telemetry,
+    Unavailable,
+    check_call,
+)
+from robot_adapters.franka import FrankaSettings, connecting
+from robot_adapters.franka.arm import CONTROL_HZ
+from robot_adapters.franka.backend import WORDS, ArmFault, Mode
+from robot_adapters.franka.dead_man import DeadMan
+from robot_adapters.franka.eyes import EyesFactory, Hand, Sight
+from robot_adapters.franka.limits import Refused
+from robot_adapters.projection import overlay
+from robot_adapters.registry import task as task_by_name
+from robot_adapters.skills import GRASPED_WIDTH, clear_yaw, run_skill
+from robot_adapters.tasks.episode import Episode
+
+log = logging.getLogger(__name__)
+
+EYES = "seed.eyes"
+HELD_WITHIN = 0.05
+"""m from the grip site: an object's middle is no farther while fingers hold it."""
+JOINT_LIMITS = (
+    (-2.7437, 2.7437), (-1.7837, 1.7837), (-2.9007, 2.9007), (-3.0421, -0.1518),
+    (-2.8065, 2.8065), (0.5445, 4.5169), (-3.0159, 3.0159),
+)  # fmt: skip
+"""rad, of the FR3 (Franka's datasheet); a Panda's are a little narrower in joints 5 to 7, wider in 1 and 3."""
+
+
+class FrankaAdapter:
+    """A real arm (`Adapter`). One thread uses it; a dead-man timer beside it may only stop."""
+
+    def __init__(self, task: str, settings: FrankaSettings) -> None:
+        """Connect to arm and cameras, and look. Nothing moves.
+
+        Raises:
+            Unavailable: one of them can't be had.
+        """
+        self._task = task_by_name(task)
+        self._settings = settings
+        self._eyes = find_eyes(settings.eyes)(task, settings.eyes_settings)
+        try:
+            self.arm = connecting.arm(settings, self._task)
+        except BaseException:
+            self._eyes.close()
+            raise
+        self._dead_man = DeadMan(self.arm, settings.dead_man)
+        self._sight: Sight | None = None
+        self._observation: Observation | None = None
+        self._episode = Episode(self._task, self._scene)
+        self._shift = np.array(connecting.offset(settings, self._task))
+        facts = self.arm.backend.facts()
+        self.info = AdapterInfo(
+            name="franka",
+            simulated=False,
+            cameras=self._eyes.cameras,
+            image_size=self._eyes.image_size,
+            control_hz=CONTROL_HZ,
+            details={
+                "backend": facts.backend,
+                "fci": facts.fci,
+                "firmware": facts.firmware,
+                "hand": facts.hand_firmware,
+                "host": settings.host,
+            },
+        )
+
+    def reset(self, seed: int | None = None) -> Observation:
+        """Start an episode as people have laid it out. Nothing moves: `home` does that, when an operator asks."""
+        del seed
+        self._observation = self._sight = None
+        self._episode.reset()
+        return self.observe()
+
+    def observe(self) -> Observation:
+        """State and images now; the same observation as long as nothing has moved.
+
+        Raises:
+            Unavailable: an object is lost, a camera has moved or is gone, or the arm isn't well.
+        """
+        self._must_be_well()
+        if self._observation is None:
+            if refusal := self._eyes.refusal():
+                raise Unavailable(refusal, remedy="put that right, then resume")
+            self._sight = None
+            scene = self._episode.scene()
+            assert self._sight is not None
+            if missing := self._sight.missing:
+                lost = "; ".join(f"{name}: {why}" for name, why in sorted(missing.items()))
+                raise Unavailable(f"not everything is in sight: {lost}", remedy="make it visible, then resume")
+            frames = {name: self._eyes.frame(name, still=True) for name in self.info.cameras}
+            taken = min(self._sight.taken_at.values(), default=time.time())
+            self._observation = Observation(uuid.uuid4().hex, self._task.state(scene), frames, taken)
+        return self._observation
+
+    def execute(self, call: SkillCall, *, should_stop: StopCheck, on_step: StepHook) -> SkillResult:
+        """Run one skill to its end, or until `should_stop()`.
+
+        Raises:
+            InvalidCall: the call doesn't fit the task. Nothing has moved.
+            Unavailable: the arm can't be used now. Nothing has moved.
+        """
+        spec = check_call(call, self._task.skills)
+        self._must_be_well()
+        before = self.observe().state
+        yaw = self._yaw(call, spec)
+        self._observation = self._sight = None
+        end, steps, broken = self._run(should_stop, on_step, lambda stop, step: run_skill(
+            self.arm, call, spec, should_stop=stop, on_step=step, yaw=yaw
+        ))  # fmt: skip
+        scene = self._episode.scene()
+        found = self._episode.executed(before, call, end, scene)
+        return SkillResult(end, steps, self._task.success(scene), (*broken, *found))
+
+    def home(self, *, should_stop: StopCheck, on_step: StepHook) -> bool:
+        """Slowly to where the arm is out of the cameras' way, because an operator asks; whether it is there.
+
+        Raises:
+            Unavailable: the arm can't be used now.
+        """
+        self._must_be_well()
+        self._observation = self._sight = None
+
+        def go(_: StopCheck, step: StepHook) -> tuple[EndReason, int]:
+            self.arm.while_waiting = step
+            return (EndReason.ARRIVED if self.arm.home() else EndReason.STOPPED), 0
+
+        end, _, broken = self._run(should_stop, on_step, go)
+        return end is EndReason.ARRIVED and not broken
+
+    def recover(self) -> None:
+        """Clear a reflex, because an operator says so.
+
+        Raises:
+            ArmFault: it can't be cleared; after a user stop, only by releasing the button.
+        """
+        state = self.arm.look()
+        if state.mode in {Mode.USER_STOPPED, Mode.DISCONNECTED}:
+            raise ArmFault(f"the arm is in state {state.mode}", mode=state.mode)
+        if state.mode is Mode.REFLEX:
+            self.arm.backend.recover()
+        self._observation = None
+
+    def overlays(self, call: SkillCall) -> Mapping[str, CameraOverlay]:
+        """The call drawn for every camera, with the yaw that the gripper would take.
+
+        Raises:
+            InvalidCall: the call doesn't fit the task.
+        """
+        spec = check_call(call, self._task.skills)
+        yaw = self._yaw(call, spec)
+        shifted = np.eye(4)
+        shifted[:3, 3] = self._shift  # from the task's frame to the robot's, then to the camera's
+        return {
+            name: overlay(
+                replace(seen, camera_from_base=seen.camera_from_base @ shifted),
+                call,
+                spec,
+                self._task.table_height,
+                yaw=yaw,
+                skills=self._task.skills,
+            )
+            for name, seen in self._eyes.calibrations().items()
+        }
+
+    def frame(self, camera: str) -> CameraFrame:
+        """One picture now, for live video.
+
+        Raises:
+            Unavailable: there is no such camera, or it is gone.
+        """
+        return self._eyes.frame(camera, still=False)
+
+    def success(self) -> bool:
+        """Whether the task is solved, as far as can be seen."""
+        return self._task.success(self._episode.scene())
+
+    def telemetry(self) -> Telemetry:
+        """What the arm says of itself, as it was seen last."""
+        state = self.arm.state
+        here, _ = self.arm.pose()
+        x, y, z = (float(v) for v in here)
+        fx, fy, fz = (float(v) for v in state.force)
+        refusal = self._eyes.refusal()
+        return Telemetry(
+            joints=tuple(float(q) for q in state.joints),
+            joint_limits=JOINT_LIMITS,
+            gripper=(x, y, z),
+            opening=self.arm.gripper_width(),
+            force=(fx, fy, fz),
+            calibration="missing" if refusal else "measured",
+            calibration_detail=refusal or "",
+            mode=state.mode.value,
+            words=WORDS[state.mode],
+        )
+
+    def refresh(self) -> None:
+        """Look at the arm while nothing is asked of it, so that what it tells of itself is so."""
+        try:
+            self.arm.look()
+        except ArmFault as fault:
+            self.arm.lost(fault.mode)
+
+    def close(self) -> None:
+        """Stop, and let go of arm and cameras."""
+        self._dead_man.close()
+        self.arm.halt()
+        self.arm.backend.close()
+        self._eyes.close()
+
+    def _run(
+        self,
+        should_stop: StopCheck,
+        on_step: StepHook,
+        work: Callable[[StopCheck, StepHook], tuple[EndReason, int]],
+    ) -> tuple[EndReason, int, tuple[SafetyViolation, ...]]:
+        """Carry out a motion under the dead-man timer; its end, its set-points, and what the arm itself objected to."""
+        steps = 0
+
+        def count() -> None:
+            nonlocal steps
+            steps += 1
+            on_step()
+
+        stop = self._dead_man.guarding(should_stop)
+        self.arm.should_stop = stop
+        self.arm.while_waiting = lambda: None
+        try:
+            self.arm.begin()
+            end, steps = work(stop, count)
+        except (ArmFault, Refused) as fault:
+            log.warning("the motion broke off: %s", fault)
+            self.arm.halt()
+            return _why(fault), steps, _violations(fault)
+        finally:
+            self._dead_man.rest()
+        if end is EndReason.STOPPED:
+            self.arm.halt()
+        else:
+            self.arm.end()
+        return end, steps, ()
+
+    def _must_be_well(self) -> None:
+        try:
+            state = self.arm.look()
+        except ArmFault as fault:
+            self.arm.lost(fault.mode)
+            raise Unavailable(str(fault), remedy=fault.remedy) from fault
+        if state.mode not in {Mode.IDLE, Mode.MOVING}:
+            why = f" ({', '.join(state.errors)})" if state.errors else ""
+            raise Unavailable(f"the arm is in state {state.mode}{why}", remedy=WORDS[state.mode])
+
+    def _scene(self) -> Scene:
+        """What is seen, in the task's frame, with what the fingers hold."""
+        if self._sight is None:
+            here, yaw = self.arm.pose()
+            width, closed = self.arm.gripper_width(), self.arm.gripper_closed()
+            self._sight = self._eyes.look(Hand(here + self._shift, yaw, width, closed))
+        here, _ = self.arm.pose()
+        objects = {name: at - self._shift for name, at in self._sight.objects.items()}
+        return Scene(
+            objects=objects,
+            gripper=here,
+            gripper_closed=self.arm.gripper_closed(),
+            held=self._held(objects, here),
+            joints=self._sight.joints,
+            tilts=self._sight.tilts,
+        )
+
+    def _held(self, objects: Mapping[str, Array], here: Array) -> str | None:
+        """The object between closed fingers that don't touch each other."""
+        if not self.arm.gripper_closed() or self.arm.gripper_width() < GRASPED_WIDTH or not objects:
+            return None
+        nearest = min(objects, key=lambda name: float(np.linalg.norm(objects[name] - here)))
+        grip = next((spec.grip for spec in self._task.objects if spec.name == nearest), None)
+        at = objects[nearest] + (np.array(grip.at) if grip is not None else 0.0)
+        return nearest if float(np.linalg.norm(at - here)) < HELD_WITHIN else None
+
+    def _yaw(self, call: SkillCall, spec: SkillSpec) -> float:
+        """The gripper's angle, rad, for a call that doesn't say: clear of neighbours to pick, else as it is."""
+        _, present = self.arm.pose()
+        if call.skill != "pick":
+            return present
+        values = call.named(spec)
+        target = np.array([values["x"], values["y"], values["z"]])
+        objects = list(self._scene().objects.values())
+        if not objects:
+            return present
+        nearest = min(range(len(objects)), key=lambda i: float(np.linalg.norm(objects[i] - target)))
+        return clear_yaw(target, objects[:nearest] + objects[nearest + 1 :])
+
+
+def find_eyes(name: str) -> EyesFactory:
+    """What sees, by its name among the entry points.
+
+    Raises:
+        Unavailable: none is installed under this name.
+    """
+    points = {point.name: point for point in entry_points(group=EYES)}
+    if name not in points:
+        known = ", ".join(sorted(points)) or "none"
+        raise Unavailable(f"nothing called {name!r} sees", remedy=f"installed are: {known}")
+    return cast("EyesFactory", points[name].load())
+
+
+def _why(fault: ArmFault | Refused) -> EndReason:
+    if isinstance(fault, ArmFault) and fault.mode is Mode.USER_STOPPED:
+        return EndReason.STOPPED
+    if isinstance(fault, ArmFault) and fault.mode is Mode.REFLEX:
+        return EndReason.FORCE_LIMIT
+    return EndReason.STALLED
+
+
+def _violations(fault: ArmFault | Refused) -> tuple[SafetyViolation, ...]:
+    """A reflex and a lost arm need somebody to look before anything else; a button that was pressed needs a hand."""
+    if isinstance(fault, Refused):
+        return ()
+    kind = "manual_reset" if fault.mode is Mode.USER_STOPPED else "damage"
+    return (SafetyViolation(kind, f"{fault}. {WORDS[fault.mode]}"),)

@@ -1,0 +1,1 @@
+"""Tests of the Franka adapter, against simulators that speak its protocol."""
