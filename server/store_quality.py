@@ -96,12 +96,12 @@ class QualityStore:
 
     async def measure(self, experiment_id: int) -> bool:
         """Estimate each trainer's reliability anew, and store it; False where there is nothing to compare yet."""
+        if not await self._database.read(lambda s: _comparable(s, experiment_id)):
+            return False
         clicks, known = await self._database.read(
             lambda s: (_clicks(s, experiment_id), _known_answers(s, experiment_id))
         )
         said = [Said(c.proposal, c.trainer, c.value) for c in clicks if c.value is not None and c.status != "practice"]
-        if len({each.trainer for each in said}) < 2 and not known:
-            return False
         estimated = await asyncio.to_thread(estimate, said, known)
 
         def keep(session: Session) -> None:
@@ -183,6 +183,12 @@ def _clicks(session: Session, experiment_id: int) -> list[Click]:
         Click(proposal, who, name, kind, value, label, status, at, bool(corrected), verdict, known)
         for proposal, who, name, kind, value, label, status, at, corrected, verdict, known in session.execute(query)
     ]
+
+
+def _comparable(session: Session, experiment_id: int) -> bool:
+    """Whether anything can be compared: there are two trainers, or known answers. Most runs have one teacher."""
+    trainers = select(FeedbackRow.trainer_id).where(FeedbackRow.experiment_id == experiment_id).distinct().limit(2)
+    return len(session.scalars(trainers).all()) > 1 or bool(_known_answers(session, experiment_id))
 
 
 def _known_answers(session: Session, experiment_id: int) -> dict[int, int]:

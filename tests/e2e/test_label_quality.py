@@ -105,5 +105,12 @@ def test_everybodys_figures_are_shown_and_taken_away_as_a_table(
     expect(trainer.test_id("practise-first")).to_be_visible()
     page.get_by_label("Hidden known answers").select_option("0.05")
     wait_for(lambda: service.get(trainer.path)["gold_rate"] == 0.05, "the rate")
+    trainer.test_id("past").first.click()
+    accessible(page)
+    trainer.test_id("mark-bad").click()
+    expect(trainer.notices).to_contain_text("shown again")
+    (mark,) = service.rows("SELECT answer FROM gold_mark")
+    assert mark["answer"] == -1
+    page.keyboard.press("Escape")
     page.get_by_label("Practice before clicks count").select_option("off")
     expect(trainer.test_id("practise-first")).to_have_count(0)

@@ -84,7 +84,7 @@ async function request<T>(method: string, path: string, body?: unknown): Promise
     throw new ApiError(unreachable());
   }
   if (!response.ok) throw new ApiError(await problemFrom(response));
-  return (await response.json()) as T;
+  return (response.status === 204 ? null : await response.json()) as T;
 }
 
 /** A list comes bare or as a page. */
@@ -140,6 +140,10 @@ export const autoApproval = (id: number) =>
 
 /** Everybody's figures, and how far they agree. */
 export const labelQuality = (id: number) => request<LabelQuality>("GET", `/experiments/${id}/quality`);
+
+/** Know the answer to a closed proposal. */
+export const markGold = (proposalId: number, answer: -1 | 1) =>
+  request<null>("PUT", `/proposals/${proposalId}/gold`, { answer, trainer: ME });
 
 export type QualityChange = Pick<ExperimentUpdate, "gold_rate"> | Pick<ExperimentUpdate, "practice_required">;
 

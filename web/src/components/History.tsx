@@ -1,5 +1,5 @@
 // The newest proposals as a strip of pictures with one's own labels; a press opens one, to look again or to correct.
-import { useState } from "react";
+import { type ReactNode, useState } from "react";
 import { type Entry, FILTERS, type Filter, type History, shown } from "../history";
 import { skillName, t } from "../i18n";
 import { percent } from "../i18n/numbers";
@@ -98,9 +98,11 @@ function Item({ entry, onOpen }: { entry: Entry; onOpen: () => void }) {
 export interface HistoryProps {
   history: History;
   onRelabel: (feedbackId: number, value: Value) => void;
+  /** What an operator may do beside with a past proposal. */
+  more?: (proposalId: number) => ReactNode;
 }
 
-export function HistoryStrip({ history, onRelabel }: HistoryProps) {
+export function HistoryStrip({ history, onRelabel, more }: HistoryProps) {
   const [filter, setFilter] = useState<Filter>("all");
   const [openId, setOpenId] = useState<number | null>(null);
   const past = history.filter(({ proposal }) => proposal.closed_at);
@@ -133,12 +135,24 @@ export function HistoryStrip({ history, onRelabel }: HistoryProps) {
           ))}
         </ul>
       )}
-      {open && <Past entry={open} onRelabel={onRelabel} onClose={() => setOpenId(null)} />}
+      {open && (
+        <Past
+          entry={open}
+          onRelabel={onRelabel}
+          more={more?.(open.proposal.id)}
+          onClose={() => setOpenId(null)}
+        />
+      )}
     </section>
   );
 }
 
-function Past(props: { entry: Entry; onRelabel: HistoryProps["onRelabel"]; onClose: () => void }) {
+function Past(props: {
+  entry: Entry;
+  onRelabel: HistoryProps["onRelabel"];
+  more: ReactNode;
+  onClose: () => void;
+}) {
   const { proposal, own, execution } = props.entry;
   const relabel = (value: Value) => {
     if (own && own.label !== value) props.onRelabel(own.id, value);
@@ -185,6 +199,7 @@ function Past(props: { entry: Entry; onRelabel: HistoryProps["onRelabel"]; onClo
       ) : (
         <p className="hint">{t("history.notYours")}</p>
       )}
+      {props.more}
       <div className="actions">
         <button type="button" className="button" onClick={props.onClose} data-first>
           {t("common.close")}

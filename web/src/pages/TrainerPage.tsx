@@ -13,6 +13,7 @@ import { HistoryStrip } from "../components/History";
 import { JudgeBar } from "../components/JudgeBar";
 import { LabelQualityPanel } from "../components/LabelQuality";
 import { LastMotion } from "../components/LastMotion";
+import { MarkGold } from "../components/MarkGold";
 import { Notices } from "../components/Notices";
 import { NeedsHand, ResetDialog } from "../components/OperatorPanel";
 import { PracticeBanner } from "../components/PracticeBanner";
@@ -154,6 +155,9 @@ export function TrainerPage({ id }: { id: number }) {
             <HistoryStrip
               history={state.history}
               onRelabel={(feedbackId, value) => void session.relabel(feedbackId, value)}
+              {...(experiment?.gold_rate && {
+                more: (proposalId) => <MarkGold proposalId={proposalId} notify={session.notify} />,
+              })}
             />
             <Curve curve={state.curve} />
           </div>
