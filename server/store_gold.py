@@ -90,10 +90,10 @@ def unmark(session: Session, proposal_id: int) -> None:
 
 
 def gold(session: Session, row: ProposalRow) -> Gold:
-    """A closed gold proposal with everybody's answer, as it was clicked."""
+    """A closed gold proposal with everybody's answer, as it was clicked; late ones measure as well."""
     clicks = session.scalars(
         select(FeedbackRow)
-        .where(FeedbackRow.proposal_id == row.id, FeedbackRow.status == "stored", FeedbackRow.undone_at.is_(None))
+        .where(FeedbackRow.proposal_id == row.id, FeedbackRow.status != "practice", FeedbackRow.undone_at.is_(None))
         .order_by(FeedbackRow.id)
     )
     known = row.known_answer or 0

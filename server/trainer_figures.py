@@ -52,7 +52,7 @@ def figures(clicks: Sequence[Click], estimates: Mapping[int, Estimate], *, own: 
 def _figures(own: Sequence[Click], all_of: Mapping[int, Sequence[Click]], estimate: Estimate | None) -> TrainerFigures:
     counted = [click for click in own if click.status == "stored"]
     labels = [click.label for click in counted if click.label is not None]
-    gold = [click.value == click.known_answer for click in counted if click.known_answer is not None]
+    gold = [click.value == click.known_answer for click in own if click.known_answer is not None]
     told = gold[: len(gold) // TOLD_IN * TOLD_IN] if estimate is None else gold
     shared = [click for click in own if click.value is not None and len(all_of[click.proposal]) > 1]
     judged = [click for click in shared if click.verdict is not None]

@@ -206,6 +206,8 @@ function onEvent(state: TrainerState, event: StreamEvent): TrainerState {
     case "resumed":
     case "pong":
       return state;
+    default:
+      return state; // of a service that is newer than this page: nothing that it needs to know
   }
 }
 

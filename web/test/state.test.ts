@@ -27,6 +27,12 @@ const ended: StreamEvent = {
   violations: [],
 };
 
+it("passes over an event that only a newer service knows", () => {
+  const state = having(snapshot(), opened(1));
+  const unknown = { type: "weather_changed", seq: 7 } as unknown as StreamEvent;
+  expect(next(state, unknown).proposal?.id).toBe(1);
+});
+
 describe("judging", () => {
   it("counts only for the proposal that is drawn", () => {
     const state = having(snapshot(), opened(1));
