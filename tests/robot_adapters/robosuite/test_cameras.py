@@ -156,3 +156,29 @@ def test_the_bar_shows_the_angle_that_the_fingers_take(stacking: RobosuiteAdapte
     ends, _ = project(stacking.cameras.calibration(camera), np.array(call.parameters) + np.stack([axis, -axis]))
     swapped = np.linalg.norm(ends - drawn.bar, axis=1).max() > np.linalg.norm(ends[::-1] - drawn.bar, axis=1).max()
     assert (ends[::-1] if swapped else ends) == pytest.approx(np.array(drawn.bar), abs=2.0)
+
+
+TARGETS = {"stacking": "block_a", "sweeping": "broom", "collecting_toy": "toy", "cooking_hotdog": "skillet"}
+"""What the first true call of a task picks up."""
+
+
+@pytest.mark.parametrize("camera", CAMERAS)
+@pytest.mark.parametrize("name", TARGETS)
+def test_the_overlay_of_every_task_lies_on_what_it_means(name: str, camera: str) -> None:
+    adapter = shared(name)
+
+    call = task(name).true_call(adapter.reset(3).state)
+    drawn = adapter.overlays(call)[camera]
+    seen = adapter.cameras.geoms(camera)
+    model = adapter.simulator.model
+    body = adapter.simulator._bodies[TARGETS[name]]
+    pixels = np.argwhere(np.isin(model.geom_bodyid[np.maximum(seen, 0)], [body]) & (seen >= 0))[:, ::-1]
+    assert len(pixels) > 50, "it is hidden"
+    assert drawn.dot is not None
+    near = np.linalg.norm(pixels - np.array(drawn.dot), axis=1).min()
+    assert near < 12, f"the dot is {near:.0f} px from the {TARGETS[name]}"
+    # the ghost's fingers stand on both sides of it, as wide apart as the bar
+    fingers = [np.array(outline).mean(axis=0) for outline in drawn.ghost[:2]]
+    assert drawn.bar is not None
+    assert np.linalg.norm(fingers[0] - fingers[1]) == pytest.approx(np.linalg.norm(np.subtract(*drawn.bar)), rel=0.45)
+    assert np.linalg.norm(np.mean(fingers, axis=0) - np.array(drawn.dot)) < 30
