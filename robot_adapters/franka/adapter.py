@@ -164,7 +164,7 @@ class FrankaAdapter:
         if state.mode in {Mode.USER_STOPPED, Mode.DISCONNECTED}:
             raise ArmFault(f"the arm is in state {state.mode}", mode=state.mode)
         if state.mode is Mode.REFLEX:
-            self.arm.backend.recover()
+            self.arm.recover()
         self._observation = None
 
     def overlays(self, call: SkillCall) -> Mapping[str, CameraOverlay]:

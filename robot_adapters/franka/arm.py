@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from robot_adapters.base import Array
+from robot_adapters.base import Array, Unavailable
 from robot_adapters.franka.backend import READY, ArmFault, ArmState, FrankaBackend, Goal, Mode
 from robot_adapters.franka.limits import Limits, Pacer
 
@@ -49,6 +49,12 @@ class FrankaArm:
         self._limits = limits
         self._offset = np.zeros(3) if offset is None else offset
         self.table_height = limits.table - float(self._offset[2])
+        if not backend.hand().there:
+            backend.close()
+            raise Unavailable(
+                "the arm has no hand that answers",
+                remedy="mount the Franka Hand, set it as end effector in Desk, and initialise it there",
+            )
         self._state = backend.state()
         self._pacer: Pacer | None = None
         self._closed = backend.hand().width < 0.01  # m: an open hand is open; a held object is told by `grasp` only
@@ -114,6 +120,18 @@ class FrankaArm:
     def lost(self, mode: Mode) -> None:
         """Note that it doesn't answer, so that what it tells of itself is so."""
         self._state = replace(self._state, mode=mode, errors=())
+
+    def recover(self) -> None:
+        """Clear a reflex; returns once the arm says that it is well.
+
+        Raises:
+            ArmFault: it can't be cleared.
+        """
+        self.backend.recover()
+        until = time.monotonic() + SILENCE
+        while self.look().mode is Mode.REFLEX and time.monotonic() < until:
+            time.sleep(POLL)
+        self._must_be_well(self._state)
 
     def begin(self) -> None:
         """Look before a skill.
@@ -199,6 +217,8 @@ class FrankaArm:
             self.backend.track(Goal(state.position, np.zeros(3), state.position, self._pacer.yaw))
 
     def _must_be_well(self, state: ArmState) -> None:
+        if not self.backend.hand().there:
+            raise ArmFault("the hand doesn't answer any more", mode=Mode.DISCONNECTED)
         if state.mode in {Mode.IDLE, Mode.MOVING}:
             return
         self._pacer = None

@@ -153,7 +153,7 @@ class FrankaBackend(Protocol):
         """Begin to open the fingers."""
 
     def recover(self) -> None:
-        """Clear a reflex, because an operator said so.
+        """Clear a reflex, because an operator said so; what comes of it is told by the next states.
 
         Raises:
             ArmFault: it can't be cleared; after a user stop only releasing the button helps.

@@ -32,6 +32,7 @@ def driving(settings: FrankaSettings) -> Driving:
         speed=settings.speed,
         acceleration=settings.acceleration,
         stiffness=settings.stiffness,
+        force=settings.force,
         reflex=settings.reflex,
     )
 

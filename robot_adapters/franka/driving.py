@@ -16,8 +16,8 @@ class Driving:
     """Bounds and manners of a motion, in m, s, N.
 
     host: of the control box (deoxys: where this PC is reached). realtime: refuse to run without a real-time kernel.
-    stiffness: N/m. reflex: N at the hand at which the robot stops itself. leash: m that the goal may be ahead.
-    homing_fraction: of each joint's own limits, on the way home.
+    stiffness: N/m. force: N at the hand at which a motion ends. reflex: N at the hand at which the robot stops itself.
+    leash: m that the goal may be ahead. homing_fraction: of each joint's own limits, on the way home.
     """
 
     host: str
@@ -27,7 +27,8 @@ class Driving:
     turning: float = 1.0
     stiffness: float = 1000.0
     leash: float = 0.03
-    reflex: float = 40.0
+    force: float = 25.0
+    reflex: float = 45.0
     homing_fraction: float = 0.15
 
     def collision_behaviour(self) -> tuple[list[float], list[float], list[float], list[float]]:

@@ -85,8 +85,10 @@ class Fingers:
                 log.warning("the hand didn't stop: %s", error)
 
     def close(self) -> None:
-        """End the thread and the connection; a command that is being carried out is not waited for."""
+        """End the thread and the connection; a command that doesn't end isn't waited for."""
         self._asked.put("")
+        if self._hand is not None:
+            self._thread.join(1.0)
         self._hand = None
 
     def _serve(self) -> None:

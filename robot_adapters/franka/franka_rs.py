@@ -57,7 +57,7 @@ class FrankaRs:
         """See `FrankaBackend`."""
         session = self._session
         try:
-            raw = session.state() if session is not None else self._robot.read_once()
+            raw = session.state() if session is not None else self._fresh()
         except self._driver.FrankaError as error:
             raise ArmFault(f"the arm doesn't answer: {error}", mode=Mode.DISCONNECTED) from error
         mode = MODES.get(raw.robot_mode, Mode.USER_STOPPED)
@@ -157,6 +157,11 @@ class FrankaRs:
         self.halt()
         self._fingers.close()
         del self._robot  # the box serves one client: the connection ends with its last reference
+
+    def _fresh(self) -> Any:
+        """A state of now: the first may have waited in the socket, where newer ones found no room."""
+        self._robot.read_once()
+        return self._robot.read_once()
 
     def _start(self, kind: Any, **settings: Any) -> None:
         self.end()

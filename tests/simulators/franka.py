@@ -38,9 +38,17 @@ class SimulatedFranka:
         """Start it, and wait until it listens."""
         self.host = free_host()
         arguments = ["--host", self.host, "--table", str(table), "--blocks", json.dumps(blocks or {})]
-        script = str(Path(__file__).parent / "simulated_franka.py")
         self._process = subprocess.Popen(
-            [str(PYTHON), script, *arguments, *([] if gripper else ["--no-gripper"])], stdout=subprocess.PIPE, text=True
+            [
+                str(PYTHON),
+                "-m",
+                "tests.simulators.simulated_franka",
+                *arguments,
+                *([] if gripper else ["--no-gripper"]),
+            ],
+            cwd=ROOT,
+            stdout=subprocess.PIPE,
+            text=True,
         )
         assert self._process.stdout is not None
         if self._process.stdout.readline().strip() != "ready":

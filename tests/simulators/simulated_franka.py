@@ -1,9 +1,9 @@
 """A simulated Franka that speaks libfranka's protocol: franky-sim, with blocks on a table and with what can go wrong.
 
-Runs in a virtual environment of its own (`scripts/simulators.sh`): `python simulated_franka.py --host 127.0.0.9`.
-franky-sim has no faults of its own. Added here: lock-step with the client, a table with blocks, contact forces, the
-collision reflex, the user stop, lost commands, a cable that is pulled, and a grasp that holds nothing. A test says
-what is to happen in JSON lines over TCP on port 1339 of the same host; every line is answered by the truth.
+Runs in a virtual environment of its own (`scripts/simulators.sh`): `python -m tests.simulators.simulated_franka`. Added
+to franky-sim: lock-step with the client, a table with blocks, contact forces, people who push, press the button or pull
+the cable, and fingers that slip; `control_box.py` has what follows. A test says what is to happen in JSON lines over
+TCP on port 1339 of the same host; every line is answered by the truth.
 """
 
 from __future__ import annotations
@@ -14,7 +14,6 @@ import json
 import select
 import signal
 import socket
-import struct
 import sys
 import time
 import xml.etree.ElementTree as ET
@@ -23,170 +22,16 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from franky_sim import franka_gripper_server, franka_server, mujoco_simulator
-from franky_sim.franka_gripper_protocol import GripperCommandStatus
-from franky_sim.franka_robot_protocol import (
-    AutomaticErrorRecoveryCommand,
-    AutomaticErrorRecoveryStatus,
-    BaseCommand,
-    MoveCommand,
-    MoveStatus,
-    RobotCommand,
-    RobotMode,
-    SetCollisionBehaviorCommand,
-)
-from franky_sim.franka_robot_server import FrankaRobotServer
+from franky_sim import mujoco_simulator
+from franky_sim.franka_robot_protocol import MoveStatus, RobotMode
+
+from tests.simulators.control_box import LabServer, mend
 
 READY = (0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785)  # rad; Franka's own "ready" pose, fingers pointing down
-CARTESIAN_REFLEX, COMMUNICATION = 7, 25  # positions in libfranka's list of 41 errors
-LOST_IN_A_ROW = 20  # commands; the real FCI then stops the motion
 FORCE_FILTER = 0.05  # of a new force in every millisecond, about what the real estimate does
 LOCK_STEP_PATIENCE = 0.25  # s for a client's command before it counts as lost
 CONTROL_PORT = 1339
-
-
-class LabServer(FrankaRobotServer):  # type: ignore[misc]
-    """The arm's server with what a control box does when something is wrong."""
-
-    def __init__(self, *arguments: Any) -> None:
-        super().__init__(*arguments)
-        self.mode: RobotMode | None = None
-        self.errors = [False] * 41
-        self.thresholds = np.full(6, np.inf)
-        self.wrench = np.zeros(6)
-        self.torques = np.zeros(7)
-        self.last_command = 0
-        self.begun = False
-        self.lost = 0
-        self.lost_in_all = 0
-        self.plugged_in = True
-        self.gripper = True
-
-    @property
-    def moving(self) -> bool:
-        """Whether a client controls the arm."""
-        return bool(self.current_motion_id)
-
-    def abort(self, status: MoveStatus, mode: RobotMode | None, error: int | None = None) -> None:
-        """End the motion, if there is one, and refuse others until that is lifted."""
-        motion = self.current_motion_id
-        self.stop_motion(send_preemption_signal=False)
-        self.mode = mode
-        if error is not None:
-            self.errors[error] = True
-        self.send_state()
-        if motion:
-            self.reset_current_motion_id()
-            BaseCommand.send_response(self._tcp_socket, RobotCommand.kMove, motion, status)
-
-    def watch(self, answered: bool) -> None:
-        """Look for a collision, and count commands that didn't come; once a millisecond."""
-        if self.mode is None and bool((np.abs(self.wrench) > self.thresholds).any()):
-            self.abort(MoveStatus.kReflexAborted, RobotMode.kReflex, CARTESIAN_REFLEX)
-        self.lost = 0 if answered or not (self.begun and self.moving) else self.lost + 1
-        self.lost_in_all += self.lost > 0
-        if self.lost >= LOST_IN_A_ROW:
-            self.lost = 0
-            self.abort(MoveStatus.kReflexAborted, RobotMode.kReflex, COMMUNICATION)
-
-    def start_motion(self, *arguments: Any) -> None:
-        """Start, with nothing lost so far."""
-        self.lost, self.begun = 0, False
-        super().start_motion(*arguments)
-
-    def _handle_udp_command(self, command_data: bytes) -> None:
-        self.last_command = struct.unpack_from("<Q", command_data)[0]
-        self.begun = self.moving
-        if self.mode is None and self.moving:
-            super()._handle_udp_command(command_data)
-
-    def send_state(self) -> None:
-        """Nothing comes through a cable that is pulled; nor does a gripper that isn't there say anything."""
-        if self.plugged_in:
-            super().send_state()
-
-    def process_commands(self) -> None:
-        """Likewise the other way. The arm goes on holding still."""
-        if self.plugged_in:
-            super().process_commands()
-        else:
-            self._post_process_commands()
-
-    def _bind_children(self, hostname: str) -> None:
-        if self.gripper:
-            super()._bind_children(hostname)
-
-    @property
-    def robot_state(self) -> Any:
-        """The state with forces, mode and errors."""
-        state = super().robot_state
-        forces = tuple(self.wrench.tolist())
-        hit = tuple(float(abs(f) > t) for f, t in zip(self.wrench, self.thresholds, strict=True))
-        more = {"robot_mode": self.mode} if self.mode is not None else {}
-        return state.replace(
-            O_F_ext_hat_K=forces,
-            K_F_ext_hat_K=forces,
-            tau_ext_hat_filtered=tuple(self.torques.tolist()),
-            cartesian_contact=hit,
-            cartesian_collision=hit,
-            errors=tuple(self.errors),
-            reflex_reason=tuple(self.errors),
-            **more,
-        )
-
-
-class LabGripper(franka_gripper_server.FrankaGripperServer):  # type: ignore[misc]
-    """The hand's server. A grasp that held nothing is `unsuccessful`, as the real hand says, and not a failure."""
-
-    def _check_motion_state(self) -> None:
-        failed, GripperCommandStatus.kFail._value_ = GripperCommandStatus.kFail._value_, 2
-        try:
-            super()._check_motion_state()
-        finally:
-            GripperCommandStatus.kFail._value_ = failed
-
-
-def mend() -> None:
-    """Put the parts above in the places of franky-sim's own, and what is needed of a command's handling."""
-    mujoco_connect = franka_server.ConnectCommand.handle
-
-    def connect(self: Any, server: Any, command_type_struct: str = "I") -> None:
-        """The reply's status is one byte for the arm, and two for the hand: what libfranka 0.21 reads leniently."""
-        if command_type_struct != "I":
-            mujoco_connect(self, server, command_type_struct)
-            return
-        header = franka_server.MessageHeader(self.command_type, self.command_id, 8)
-        reply = struct.pack("<BH5x", franka_server.ConnectStatus.kSuccess.value, server.library_version)
-        self.client_socket.sendall(header.to_bytes(command_type_struct) + reply)
-        server._setup_udp_connection(self.network_udp_port)
-
-    start = MoveCommand.handle
-
-    def move(self: Any, server: LabServer) -> None:
-        if server.mode is RobotMode.kUserStopped:
-            self.reply(MoveStatus.kCommandRejectedDueToActivatedSafetyFunctions)
-        elif server.mode is not None:
-            self.reply(MoveStatus.kCommandNotPossibleRejected)
-        else:
-            start(self, server)
-
-    def recover(self: Any, server: LabServer) -> None:
-        if server.mode is RobotMode.kUserStopped:
-            self.reply(AutomaticErrorRecoveryStatus.kCommandRejectedDueToActivatedSafetyFunctions)
-            return
-        server.mode = None
-        server.errors = [False] * 41
-        self.reply(AutomaticErrorRecoveryStatus.kSuccess)
-
-    def collide(self: Any, server: LabServer) -> None:
-        server.thresholds = np.array(self.upper_force_thresholds_nominal)
-        self.reply(0)
-
-    franka_server.ConnectCommand.handle = connect
-    MoveCommand.handle = move
-    AutomaticErrorRecoveryCommand.handle = recover
-    SetCollisionBehaviorCommand.handle = collide
-    sys.modules["franky_sim.franka_robot_server"].FrankaGripperServer = LabGripper  # type: ignore[attr-defined]
+TIP = 0.1034  # m from the hand's frame to the end effector's, as Desk sets it for the hand
 
 
 class Lab:
@@ -227,6 +72,8 @@ class Lab:
         self.lock_step = False
         self.slippery = False
         self.clock = 0
+        self.push = np.zeros(3)
+        self.push_until = 0
         self.doors = socket.create_server((host, CONTROL_PORT))
         self.doors.setblocking(False)
         self.guests: dict[socket.socket, bytes] = {}
@@ -241,6 +88,7 @@ class Lab:
             if self.lock_step and server.moving and server.plugged_in and not answered:
                 answered = self.wait_for_command()
             server.watch(answered)
+            self.data.xfrc_applied[self.hand, :3] = self.push if self.clock < self.push_until else 0.0
             self.sim.step()
             self.clock += 1
             self.feel()
@@ -267,6 +115,7 @@ class Lab:
     def feel(self) -> None:
         """The force that the arm puts on its surroundings, at the hand, base frame; what fingers hold cancels out."""
         wrench, pairs = np.zeros(6), self.data.contact.geom
+        wrench[:3] = -self.data.xfrc_applied[self.hand, :3]
         if self.data.ncon:
             ours = self.arm[self.sim.model.geom_bodyid[pairs]]
             for i in np.flatnonzero(ours[:, 0] != ours[:, 1]):
@@ -314,12 +163,12 @@ class Lab:
 
     def truth(self) -> dict[str, Any]:
         """Everything, in m, N, s, base frame."""
-        tip = self.robot.state.O_T_EE
+        # not the state's own: at a standstill that is of the joints it holds
+        tip = self.data.xpos[self.hand] + self.data.xmat[self.hand].reshape(3, 3)[:, 2] * TIP
         return {
             "blocks": {name: self.data.xpos[body.id].tolist() for name, body in self.blocks.items()},
             "up": {name: float(self.data.xmat[body.id][8]) for name, body in self.blocks.items()},
-            "tip": [float(tip[i]) for i in (12, 13, 14)],
-            "speed": float(np.linalg.norm(self.data.qvel[self.robot._dof_addrs])),
+            "tip": tip.tolist(),
             "width": self.robot.hand_width,
             "force": self.server.wrench[:3].tolist(),
             "mode": (self.server.mode or RobotMode.kIdle).name if not self.server.moving else "kMove",
@@ -357,7 +206,7 @@ class Lab:
     def do_heal(self, _: Any) -> None:
         """Whatever was wrong is over; the arm is at home with open fingers."""
         self.server.mode, self.server.errors = None, [False] * 41
-        self.server.wrench[:] = 0.0
+        self.server.wrench[:], self.push_until = 0.0, 0
         if not self.server.moving:
             for address, q in zip(self.robot._qpos_addrs, READY, strict=True):
                 self.data.qpos[address] = q
@@ -371,6 +220,10 @@ class Lab:
     def do_plug(self, there: bool) -> None:
         """Somebody pulls the network cable, or plugs it in again."""
         self.server.plugged_in = there
+
+    def do_push(self, how: list[float]) -> None:
+        """Somebody pushes the hand: x, y, z in N, base frame, and for how many s."""
+        self.push, self.push_until = np.array(how[:3]), self.clock + round(1000 * how[3])
 
     def do_slippery(self, on: bool) -> None:
         """Fingers and blocks lose all their grip."""

@@ -10,7 +10,7 @@ from robot_adapters.franka.adapter import FrankaAdapter
 from tests.robot_adapters.franka.conftest import APART, Build, errors, never, nothing
 from tests.simulators.franka import SimulatedFranka
 
-BACKENDS = ["franka_rs"]
+BACKENDS = ["franka_rs", "franky"]
 
 
 def run(adapter: FrankaAdapter, call: SkillCall) -> SkillResult:

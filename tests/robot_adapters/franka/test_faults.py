@@ -1,0 +1,181 @@
+"""What goes wrong around a real arm, on both backends: it is noticed, told in words, and nothing goes on by itself."""
+
+from __future__ import annotations
+
+import math
+import threading
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from robot_adapters.base import EndReason, SkillCall, SkillResult, Unavailable
+from robot_adapters.franka import FrankaSettings
+from robot_adapters.franka.adapter import FrankaAdapter
+from robot_adapters.franka.backend import ArmFault, Mode
+from tests.live import wait_for
+from tests.robot_adapters.franka.conftest import APART, TABLE, Build, never, nothing
+from tests.simulators.franka import SimulatedFranka
+
+BACKENDS = ["franka_rs", "franky"]
+AWAY = SkillCall("place", (0.65, 0.10, TABLE + 0.10))
+
+both = pytest.mark.parametrize("backend", BACKENDS)
+
+
+def moved(adapter: FrankaAdapter, call: SkillCall, what: Callable[[], object], after: int = 12) -> SkillResult:
+    """Run it, and have something happen once it has sent so many set-points."""
+    steps = 0
+
+    def count() -> None:
+        nonlocal steps
+        steps += 1
+        if steps == after:
+            what()
+
+    return adapter.execute(call, should_stop=never, on_step=count)
+
+
+@both
+def test_a_contact_ends_the_skill_before_the_robot_stops_itself(
+    backend: str, build: Build, arm: SimulatedFranka
+) -> None:
+    adapter = build(backend=backend)
+    adapter.reset()
+    onto = (APART["block_b"][0], APART["block_b"][1] + 0.04, TABLE + 0.01)  # one of the open fingers meets the block
+    pushes = []
+    result = adapter.execute(
+        SkillCall("place", onto), should_stop=never, on_step=lambda: pushes.append(adapter.arm.state.newtons)
+    )
+    assert result.end in {EndReason.FORCE_LIMIT, EndReason.STALLED}
+    assert 5.0 < max(pushes) < 45.0
+    assert adapter.arm.look().mode in {Mode.IDLE, Mode.MOVING}
+    assert np.linalg.norm(arm.truth()["force"]) < 30.0
+    assert not result.violations
+    assert adapter.execute(AWAY, should_stop=never, on_step=nothing).end is EndReason.ARRIVED
+
+
+@both
+def test_a_reflex_stays_until_an_operator_recovers_the_arm(backend: str, build: Build, arm: SimulatedFranka) -> None:
+    adapter = build(backend=backend)
+    adapter.reset()
+    result = moved(adapter, AWAY, lambda: arm.tell(push=[0.0, 90.0, 0.0, 0.05]))
+    assert result.end is EndReason.FORCE_LIMIT
+    assert [v.kind for v in result.violations] == ["damage"]
+    assert "stopped itself" in result.violations[0].detail
+    assert adapter.telemetry().mode == "reflex"
+    before = arm.truth()["tip"]
+    with pytest.raises(Unavailable, match="reflex"):
+        adapter.observe()
+    with pytest.raises(Unavailable, match="reflex"):
+        adapter.execute(AWAY, should_stop=never, on_step=nothing)
+    assert not np.linalg.norm(np.subtract(arm.truth()["tip"], before)) > 0.005
+    wait_for(lambda: np.linalg.norm(arm.truth()["force"]) < 1.0, "nobody to push any more")
+    adapter.recover()
+    adapter.observe()
+    assert adapter.execute(AWAY, should_stop=never, on_step=nothing).end is EndReason.ARRIVED
+
+
+@both
+def test_a_user_stop_is_never_recovered_by_itself(backend: str, build: Build, arm: SimulatedFranka) -> None:
+    adapter = build(backend=backend)
+    adapter.reset()
+    result = moved(adapter, AWAY, lambda: arm.tell(user_stop=True))
+    assert result.end is EndReason.STOPPED
+    assert [v.kind for v in result.violations] == ["manual_reset"]
+    assert adapter.telemetry().mode == "user_stopped"
+    for _ in range(2):
+        with pytest.raises(ArmFault, match="user_stopped"):
+            adapter.recover()
+    with pytest.raises(Unavailable, match="user_stopped"):
+        adapter.execute(AWAY, should_stop=never, on_step=nothing)
+    arm.tell(user_stop=False)
+    adapter.recover()
+    adapter.observe()
+    assert adapter.execute(AWAY, should_stop=never, on_step=nothing).end is EndReason.ARRIVED
+
+
+@both
+def test_a_pulled_cable_ends_the_motion_and_is_told(backend: str, build: Build, arm: SimulatedFranka) -> None:
+    adapter = build(backend=backend)
+    adapter.reset()
+    pulled: list[dict[str, Any]] = []
+    result = moved(adapter, AWAY, lambda: pulled.append(arm.tell(lock_step=False, plug=False)))
+    assert result.end is EndReason.STALLED
+    assert [v.kind for v in result.violations] == ["damage"]
+    with pytest.raises(Unavailable, match=r"arm"):
+        adapter.observe()
+    assert adapter.telemetry().mode == "disconnected"
+    assert adapter.telemetry().words
+    assert np.linalg.norm(np.subtract(arm.truth()["tip"], pulled[0]["tip"])) < 0.05
+
+
+@both
+def test_a_stop_during_a_motion_or_a_grasp_is_heeded(backend: str, build: Build, arm: SimulatedFranka) -> None:
+    adapter = build(backend=backend)
+    for until in ("the descent", "the grasp"):
+        adapter.reset()
+        stopped = threading.Event()
+
+        def heed(until: str = until, stopped: threading.Event = stopped) -> bool:
+            low = adapter.arm.pose()[0][2] < TABLE + 0.12
+            gripping = adapter.arm.gripper_closed() and adapter.arm.backend.hand().busy
+            if (until == "the descent" and low) or (until == "the grasp" and gripping):
+                stopped.set()
+            return stopped.is_set()
+
+        result = adapter.execute(SkillCall("pick", tuple(APART["block_a"])), should_stop=heed, on_step=nothing)
+        assert result.end is EndReason.STOPPED
+        assert not result.violations
+        assert arm.truth()["mode"] == "kIdle"
+        arm.tell(heal=True, place=APART)
+
+
+def test_threads_that_hog_python_disturb_no_motion(build: Build, arm: SimulatedFranka) -> None:
+    adapter = build()
+    adapter.reset()
+    arm.tell(lock_step=False)
+    lost, done = arm.truth()["lost"], threading.Event()
+
+    def hog() -> None:
+        while not done.is_set():
+            math.factorial(300)
+
+    hogs = [threading.Thread(target=hog) for _ in range(2)]
+    for thread in hogs:
+        thread.start()
+    try:
+        result = adapter.execute(AWAY, should_stop=never, on_step=nothing)
+    finally:
+        done.set()
+    assert result.end is EndReason.ARRIVED
+    assert arm.truth()["mode"] == "kIdle"
+    assert arm.truth()["lost"] - lost < 200  # of some 5,000; a real arm stops after 20 in a row
+
+
+def test_the_workspace_is_kept_whatever_a_task_allows(build: Build, arm: SimulatedFranka) -> None:
+    adapter = build(workspace_low=(0.28, -0.2, TABLE), workspace_high=(0.55, 0.2, TABLE + 0.7))
+    adapter.reset()
+    reached = []
+    result = adapter.execute(AWAY, should_stop=never, on_step=lambda: reached.append(arm.truth()["tip"][0]))
+    assert result.end is EndReason.STALLED
+    assert max(reached, default=0.0) < 0.57
+    assert adapter.observe()
+
+
+def test_an_arm_without_a_hand_is_refused_with_a_remedy() -> None:
+    with SimulatedFranka(gripper=False) as handless:
+        settings = FrankaSettings(
+            host=handless.host, realtime=False, eyes="onlooker", eyes_settings={"host": handless.host}
+        )
+        with pytest.raises(Unavailable, match="no hand") as refused:
+            FrankaAdapter("stacking", settings)
+        assert "Desk" in refused.value.remedy
+
+
+def test_nobody_there_is_told_with_a_remedy(arm: SimulatedFranka) -> None:
+    settings = FrankaSettings(host="127.1.2.3", realtime=False, eyes="onlooker", eyes_settings={"host": arm.host})
+    with pytest.raises(Unavailable, match=r"127\.1\.2\.3") as refused:
+        FrankaAdapter("stacking", settings)
+    assert "FCI" in refused.value.remedy
