@@ -20,7 +20,7 @@ PYTEST_ARGS ?=
 # order: the browser's come last (tests/conftest.py).
 PYTEST_WORKERS ?= 4
 
-.PHONY: help run setup setup-dev test check check-web check-docker test-web bench api clean
+.PHONY: help run setup setup-dev test check check-web check-docker test-web bench api screenshots clean
 
 help:
 	@sed -n 's/^# //p' Makefile | head -3
@@ -102,6 +102,9 @@ test-web: setup-dev
 
 bench: setup-dev
 	@$(BIN)/python -m tests.benchmarks
+
+screenshots: setup-dev  ## the pictures in docs/screenshots; look at them before you commit them
+	@$(BIN)/python -m scripts.screenshots
 
 api: setup-dev  ## writes web/src/api.ts from the service's OpenAPI document
 	@$(NPM) run api

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from playwright.sync_api import Page, expect
 
-from tests.e2e.test_pages import PHONE, accessible, fits
+from tests.e2e.test_pages import PHONE, accessible, fits, tab_to
 from tests.e2e.trainer import START_MS, Opener, TrainerPage
 from tests.live import LiveService
 
@@ -83,9 +83,11 @@ def test_the_past_is_looked_at_and_corrected(page: Page, opener: Opener) -> None
     expect(past.first).to_have_attribute("data-label", "neutral")
     trainer.test_id("filter-bad").click()
     expect(past).to_have_count(1)
-    past.first.click()
+    tab_to(page, "[data-testid=past]")  # all of it by keyboard
+    page.keyboard.press("Enter")
     accessible(page)
-    trainer.test_id("relabel-good").click()
+    tab_to(page, "[data-testid=relabel-good]")
+    page.keyboard.press("Enter")
     expect(page.get_by_role("dialog")).to_have_count(0)
     expect(past).to_have_count(0)
     trainer.test_id("filter-good").click()

@@ -2,7 +2,7 @@
 import { type ReactNode, useState } from "react";
 import { type Entry, FILTERS, type Filter, type History, shown } from "../history";
 import { skillName, t } from "../i18n";
-import { percent } from "../i18n/numbers";
+import { signed } from "../i18n/numbers";
 import type { Value, View } from "../wire";
 import { Dialog } from "./Dialog";
 import { Bolt, Cross, Dash, Eye, Tick, Warning } from "./icons";
@@ -172,7 +172,7 @@ function Past(props: {
       <p className="soft">
         {[
           proposal.subgoal ?? "",
-          t("history.expected", { value: percent((proposal.predicted_feedback + 1) / 2) }),
+          t("history.expected", { value: signed(proposal.predicted_feedback) }),
           execution?.outcome ? t(`history.outcome_${execution.outcome}`) : "",
           ...(execution?.violations.map(({ detail }) => t("notice.violation", { violation: detail })) ?? []),
         ]

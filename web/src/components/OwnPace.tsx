@@ -31,7 +31,7 @@ export function OwnPace({ id, feedback, pace }: { id: number; feedback: number; 
         </div>
         <div title={t("pace.streakWhat")}>
           <dt>{t("pace.streak")}</dt>
-          <dd data-testid="pace-streak">{pace.streak}</dd>
+          <dd data-testid="pace-streak">{own?.streak ?? pace.streak}</dd>
         </div>
         <div title={t("pace.agreementWhat")}>
           <dt>{t("pace.agreement")}</dt>

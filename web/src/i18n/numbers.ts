@@ -9,7 +9,10 @@ function fixed(value: number, digits: number): string {
 }
 
 /** With as many digits after the point. */
-export const decimal = (value: number, digits = 2) => fixed(value, digits).replace("-", "−");
+export function decimal(value: number, digits = 2): string {
+  const zero = Number(value.toFixed(digits)) === 0; // which has no sign
+  return fixed(zero ? 0 : value, digits).replace("-", "−");
+}
 
 /** A count, with its thousands apart. */
 export const whole = (value: number) => value.toLocaleString(language());

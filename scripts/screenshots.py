@@ -1,0 +1,162 @@
+"""Takes the pictures in docs/screenshots: every page, by day and by night, on a desk and on a phone.
+
+`make screenshots` starts a service of its own on robosuite, judges a few proposals as the task's rule would, and looks.
+A page is added to PAGES. Look at the pictures before you commit them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+import os
+import shutil
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+
+import httpx
+import numpy as np
+from playwright.sync_api import Browser, Page, sync_playwright
+
+from robot_adapters.base import SkillCall
+from robot_adapters.registry import task as task_by_name
+
+OUT = Path(__file__).parent.parent / "docs" / "screenshots"
+SIZES = {"desk": (1440, 900), "phone": (390, 844)}
+THEMES = ("dark", "light")
+FLAGS = ("--no-sandbox", "--disable-dev-shm-usage", "--disable-background-networking", "--disable-component-update")
+TASK = "stacking"
+CLICKS = 14
+PATIENCE = 120.0
+
+
+def _as_it_is(page: Page) -> None:
+    page.wait_for_load_state("networkidle")
+
+
+def _ready(page: Page) -> None:
+    page.wait_for_selector("[data-ready]", timeout=PATIENCE * 1000)
+    page.wait_for_function("[...document.images].every((image) => image.complete || image.loading === 'lazy')")
+
+
+def _with_everything(page: Page) -> None:
+    _ready(page)
+    for key in "gwd":
+        page.keyboard.press(key)
+    page.wait_for_selector("[data-testid=scene][data-ready=true]")
+    page.get_by_test_id("operator").locator("summary").click()
+    page.evaluate("scrollTo(0, 0)")
+
+
+def _past(page: Page) -> None:
+    _ready(page)
+    page.get_by_test_id("past").nth(1).click()
+    _as_it_is(page)
+
+
+PAGES: dict[str, tuple[str, Callable[[Page], None]]] = {
+    "experiments": ("/", _as_it_is),
+    "trainer": ("/experiments/1", _ready),
+    "trainer-tools": ("/experiments/1", _with_everything),
+    "trainer-past": ("/experiments/1", _past),
+    "studies": ("/studies", _as_it_is),
+}
+"""Name -> path, and what makes it ready to be looked at."""
+
+
+@contextmanager
+def service(folder: Path) -> Iterator[httpx.Client]:
+    """A service of its own, with one experiment that waits to be judged."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    settings = {"SEED_PORT": str(port), "SEED_DATA_DIR": str(folder), "SEED_CREATE_FIRST_EXPERIMENT": "false"}
+    process = subprocess.Popen(
+        [sys.executable, "-c", "from server.cli import app; app()", "serve"], env=os.environ | settings
+    )
+    try:
+        with httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=60) as http:
+            _until(lambda: _answers(http), "the service")
+            yield http
+    finally:
+        process.terminate()
+        process.wait(timeout=60)
+
+
+def _answers(http: httpx.Client) -> bool:
+    try:
+        return http.get("/ready").status_code == httpx.codes.OK
+    except httpx.TransportError:
+        return False
+
+
+def _until(condition: Callable[[], bool], what: str) -> None:
+    end = time.monotonic() + PATIENCE
+    while not condition():
+        if time.monotonic() > end:
+            raise SystemExit(f"{what} isn't there after {PATIENCE:g} s")
+        time.sleep(0.1)
+
+
+def judge(http: httpx.Client) -> None:
+    """Start an experiment, and judge its first proposals by the task's own rule."""
+    body = {"name": "Stack two blocks", "task": TASK, "adapter": "robosuite", "algorithm": "seed"}
+    http.post("/api/v1/experiments", json=body).raise_for_status()
+    http.post("/api/v1/experiments/1/start").raise_for_status()
+    task = task_by_name(TASK)
+    names = {spec.name: [p.name for p in spec.parameters] for spec in task.skills}
+    for number in itertools.count(1):
+        _until(partial(_open, http, number), f"proposal {number}")
+        if number > CLICKS:
+            return
+        proposal = http.get("/api/v1/experiments/1/proposals?limit=1").json()["items"][0]
+        call = SkillCall(proposal["skill"], tuple(proposal["parameters"][p] for p in names[proposal["skill"]]))
+        click = {"click_id": f"picture-{number:04}", "value": task.judge(np.array(proposal["state"]), call)}
+        http.post(f"/api/v1/proposals/{proposal['id']}/feedback", json=click).raise_for_status()
+
+
+def _open(http: httpx.Client, number: int) -> bool:
+    items = http.get("/api/v1/experiments/1/proposals?limit=1").json()["items"]
+    return bool(items) and items[0]["number"] == number and items[0]["closed_at"] is None
+
+
+def look(browser: Browser, url: str, names: list[str]) -> None:
+    """Take every picture of these pages."""
+    for name, theme, (size, (width, height)) in itertools.product(names, THEMES, SIZES.items()):
+        path, prepare = PAGES[name]
+        context = browser.new_context(
+            viewport={"width": width, "height": height}, color_scheme="dark" if theme == "dark" else "light"
+        )
+        page = context.new_page()
+        page.add_init_script("""localStorage.setItem("seed.judging", '{"toured": true}')""")
+        page.goto(url + path)
+        prepare(page)
+        target = OUT / f"{name}-{size}-{theme}.jpg"
+        page.screenshot(path=target, type="jpeg", quality=82, animations="disabled")
+        print(target.relative_to(OUT.parent.parent))
+        context.close()
+
+
+def main() -> None:
+    """Parse the command line, start, judge, look."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("page", nargs="*", help=f"one or more of: {', '.join(PAGES)}; none: all")
+    names = parser.parse_args().page or list(PAGES)
+    if unknown := set(names) - set(PAGES):
+        parser.error(f"no page named {', '.join(sorted(unknown))}")
+    OUT.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as folder, service(Path(folder)) as http, sync_playwright() as playwright:
+        judge(http)
+        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=list(FLAGS))
+        look(browser, str(http.base_url), names)
+        browser.close()
+
+
+if __name__ == "__main__":
+    main()
