@@ -16,7 +16,7 @@ from robot_adapters.base import AdapterFactory
 from robot_adapters.tasks.base import Task
 from robot_adapters.tasks.layout import LayoutSettings
 from server import auto_approval
-from server.errors import invalid
+from server.errors import ServiceError, invalid
 from server.scene import scene_info
 from server.schemas import Aggregation, ExperimentCreate
 from server.schemas_catalogue import AdapterInfo, AlgorithmInfo, Parameter, Skill, TaskInfo, TeacherInfo
@@ -124,10 +124,7 @@ def check(body: ExperimentCreate) -> ExperimentCreate:
         preset = _known("preset", body.preset, algorithm.presets)
     _check_layout(registry.tasks()[body.task]().layout, adapter, body.adapter_settings)
     if body.aggregation is not Aggregation.FIRST:
-        raise invalid(
-            [FieldProblem(field="aggregation", message="needs several trainers, and there is one")],
-            remedy="use 'first'",
-        )
+        raise one_trainer()
     settings = _resolve("settings", algorithm.settings, {**preset, **body.settings})
     auto_approval.check(body.auto_approval, adapter=body.adapter, simulated=adapter.simulated, settings=settings)
     return body.model_copy(
@@ -136,6 +133,13 @@ def check(body: ExperimentCreate) -> ExperimentCreate:
             "adapter_settings": _resolve("adapter_settings", adapter.settings, body.adapter_settings),
             "teacher_settings": _teacher_settings(body),
         }
+    )
+
+
+def one_trainer() -> ServiceError:
+    """No rule but `first` makes sense yet."""
+    return invalid(
+        [FieldProblem(field="aggregation", message="needs several trainers, and there is one")], remedy="use 'first'"
     )
 
 

@@ -9,13 +9,14 @@ from datetime import UTC, datetime
 from typing import Literal
 
 from robot_adapters import registry
-from server import auto_approval
+from server import auto_approval, catalogue
 from server.desk import Desk
 from server.lifecycle import MOVING
 from server.messages import EvaluationChanged, ExecutionEnded, ExperimentChanged, RobotTold, Snapshot
 from server.publisher import Publisher
 from server.runner import Runner
 from server.schemas import (
+    Aggregation,
     Evaluation,
     EvaluationCreate,
     Experiment,
@@ -190,6 +191,8 @@ class Hub:
         Raises:
             NotFound: no such experiment. ServiceError: the critic may not approve by itself in this one.
         """
+        if body.aggregation not in (None, Aggregation.FIRST):
+            raise catalogue.one_trainer()
         if body.auto_approval is not None:
             changed = await self.store.experiment(experiment_id)
             simulated = registry.adapter(changed.adapter).simulated

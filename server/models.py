@@ -67,9 +67,9 @@ def one_of(column: str, *values: str) -> CheckConstraint:
     return CheckConstraint(f"{column} IN ({listed})", name=column)
 
 
-def _one_a_robot(name: str, where: str) -> Index:
-    """Of the rows that satisfy `where`, a robot has one at most."""
-    columns = ("experiment_id", "robot")
+def _one_a_robot(name: str, where: str, *within: str) -> Index:
+    """Of the rows that satisfy `where`, a robot has one at most; `within`: one for each value of these columns."""
+    columns = ("experiment_id", "robot", *within)
     return Index(name, *columns, unique=True, sqlite_where=text(where), postgresql_where=text(where))
 
 
@@ -80,7 +80,7 @@ class ExperimentRow(Base):
     __table_args__ = (
         one_of("lifecycle", "created", "running", "paused", "finished", "failed", "archived"),
         one_of("mode", "propose_only", "execute_approved"),
-        one_of("aggregation", "first", "majority", "unanimous"),
+        one_of("aggregation", "first", "majority", "unanimous", "weighted"),
     )
 
     id: Mapped[int] = mapped_column(primary_key=True)
@@ -121,6 +121,7 @@ class ExperimentRow(Base):
     auto_approval_suspended: Mapped[str | None] = mapped_column(Text)
     gold_rate: Mapped[float] = mapped_column(default=0.0, server_default=text("0"))
     practice_required: Mapped[dict[str, Any] | None] = mapped_column(JSON(none_as_null=True))
+    together: Mapped[dict[str, Any]] = mapped_column(server_default=text("'{}'"))
     created_at: Mapped[datetime]
     updated_at: Mapped[datetime]
 
@@ -169,7 +170,7 @@ class ProposalRow(Base):
         UniqueConstraint("experiment_id", "number"),
         one_of("purpose", "training", "evaluation"),
         one_of("verdict", "good", "neutral", "bad"),
-        one_of("close_reason", "judged", "cant_tell", "timed_out", "withdrawn", "interrupted"),
+        one_of("close_reason", "judged", "cant_tell", "superseded", "timed_out", "withdrawn", "interrupted"),
         CheckConstraint("(close_reason IS NULL) = (closed_at IS NULL)", name="closed"),
         CheckConstraint(
             "(verdict IS NULL AND (close_reason IS NULL OR close_reason <> 'judged'))"
@@ -178,7 +179,7 @@ class ProposalRow(Base):
         ),
         CheckConstraint("(gate_allowed IS NULL) = (gate_reason IS NULL)", name="gate"),
         one_of("verdict_source", "trainers", "critic", "evaluation"),
-        _one_a_robot("uq_proposal_open", "closed_at IS NULL"),
+        _one_a_robot("uq_proposal_open", "closed_at IS NULL", "slot"),
     )
 
     id: Mapped[int] = mapped_column(primary_key=True)
@@ -186,6 +187,7 @@ class ProposalRow(Base):
     episode_id: Mapped[int] = mapped_column(ForeignKey("episode.id"), index=True)
     observation_id: Mapped[int] = mapped_column(ForeignKey("observation.id"), index=True)
     robot: Mapped[int] = mapped_column(default=0, server_default=text("0"))
+    slot: Mapped[int] = mapped_column(default=0, server_default=text("0"))
     number: Mapped[int]
     purpose: Mapped[str]
     skill: Mapped[str]
@@ -204,6 +206,8 @@ class ProposalRow(Base):
     close_reason: Mapped[str | None]
     verdict: Mapped[str | None]
     verdict_source: Mapped[str | None]
+    rule: Mapped[str | None]
+    superseded_by: Mapped[int | None] = mapped_column(ForeignKey("proposal.id"))
     audit: Mapped[bool] = mapped_column(default=False, server_default=text("false"))
     gate_allowed: Mapped[bool | None]
     gate_reason: Mapped[str | None]
@@ -212,6 +216,13 @@ class ProposalRow(Base):
 
     episode: Mapped[EpisodeRow] = relationship(lazy="joined", innerjoin=True)
     observation: Mapped[ObservationRow] = relationship(lazy="joined", innerjoin=True)
+    votes: Mapped[list[FeedbackRow]] = relationship(
+        primaryjoin="and_(FeedbackRow.proposal_id == ProposalRow.id, FeedbackRow.status == 'stored',"
+        " FeedbackRow.undone_at.is_(None))",
+        lazy="selectin",
+        order_by="FeedbackRow.id",
+        viewonly=True,
+    )
 
 
 class TrainerRow(Base):

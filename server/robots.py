@@ -12,8 +12,9 @@ from robot_adapters.base import SkillCall
 from server.crew_values import Done, Picture, Seen
 from server.messages import FrameHeader, RobotTold
 from server.post import QUICK, OnChange, Post
-from server.schemas import Experiment, Overlay, Proposal
+from server.schemas import Experiment, Proposal
 from server.schemas_telemetry import Telemetry
+from server.schemas_views import Overlay
 from server.settings import Settings
 from server.worker import Worker, WorkerDied
 

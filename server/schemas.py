@@ -14,7 +14,9 @@ from pydantic import BaseModel, ConfigDict, Field, StrictInt
 from server.schemas_incidents import Report, Violation
 from server.schemas_labels import Answer, ClickId, EstimateShown, Relabel, TrainerName, label_of
 from server.schemas_quality import GoldRate, PracticeRequired
+from server.schemas_together import Looked, Together, TogetherUpdate
 from server.schemas_trust import Audit, AutoApproval, Suspended, Uncertainty, VerdictSource
+from server.schemas_views import View
 
 
 class Wire(BaseModel):
@@ -61,6 +63,7 @@ class Aggregation(StrEnum):
     FIRST = "first"
     MAJORITY = "majority"
     UNANIMOUS = "unanimous"
+    WEIGHTED = "weighted"
 
 
 RowId = Annotated[StrictInt, Field(ge=1, lt=2**63)]
@@ -124,6 +127,7 @@ class ExperimentCreate(Wire):
     auto_approval: AutoApproval | None = None
     gold_rate: GoldRate = 0.0
     practice_required: PracticeRequired | None = None
+    together: Together = Together()
 
 
 class ExperimentUpdate(Wire):
@@ -131,10 +135,12 @@ class ExperimentUpdate(Wire):
 
     name: Name | None = None
     mode: Mode | None = None
+    aggregation: Aggregation | None = None
     feedback_timeout: Annotated[float | None, Field(gt=0, le=86400)] = None
     auto_approval: AutoApproval | None = None
     gold_rate: GoldRate | None = None
     practice_required: PracticeRequired | None = None
+    together: TogetherUpdate | None = None
 
 
 class Experiment(Wire):
@@ -164,6 +170,7 @@ class Experiment(Wire):
     auto_approval_suspended: Suspended = None
     gold_rate: float = 0.0
     practice_required: PracticeRequired | None = None
+    together: Together = Together()
     counters: Counters
     created_at: datetime
     updated_at: datetime
@@ -181,38 +188,6 @@ class ExperimentPage(Page):
     items: list[Experiment]
 
 
-Point = tuple[float, float]
-
-
-class Overlay(Wire):
-    """A proposal drawn for one camera, in pixels of the full-size image (see `robot_adapters.base.CameraOverlay`)."""
-
-    dot: Point | None = None
-    line: tuple[Point, Point] | None = None
-    arrow: bool = False
-    bar: tuple[Point, Point] | None = None
-    ring: Point | None = None
-    in_view: bool = True
-    ghost: Annotated[
-        list[list[Point]], Field(description="outlines of fingers and hand at the target; empty where not known")
-    ] = []
-    yaw: Annotated[float | None, Field(description="the gripper's angle, rad, that bar and ghost are drawn for")] = None
-    workspace: Annotated[
-        list[Point], Field(description="corners of where skills may act, the lower four first; empty where not known")
-    ] = []
-
-
-class View(Wire):
-    """One camera's still image of the observation, with the overlay that was computed on it."""
-
-    camera: str
-    width: int
-    height: int
-    image: Annotated[str, Field(description="SHA-256 of the JPEG; the same hash is the same picture")]
-    url: Annotated[str, Field(description="path of the JPEG below the server's root")]
-    overlay: Overlay
-
-
 class Verdict(StrEnum):
     """What the trainers' feedback on a proposal adds up to."""
 
@@ -222,10 +197,14 @@ class Verdict(StrEnum):
 
 
 class CloseReason(StrEnum):
-    """Why a proposal is no longer open. `cant_tell`: nobody could tell from the views, so there is no verdict."""
+    """Why a proposal is no longer open. `cant_tell`: nobody could tell from the views, so there is no verdict.
+
+    `superseded`: another one for the same state was approved, and the robot moves by that; votes on it still train.
+    """
 
     JUDGED = "judged"
     CANT_TELL = "cant_tell"
+    SUPERSEDED = "superseded"
     TIMED_OUT = "timed_out"
     WITHDRAWN = "withdrawn"
     INTERRUPTED = "interrupted"
@@ -244,6 +223,7 @@ class Proposal(Wire):
     id: int
     experiment_id: int
     robot: RobotIndex
+    slot: Annotated[int, Field(description="which of the robot's open proposals at once, from 0")] = 0
     episode: Annotated[int, Field(description="number of the episode in its experiment, from 1")]
     number: Annotated[int, Field(description="number of the proposal in its experiment, from 1")]
     observation_id: str
@@ -262,6 +242,10 @@ class Proposal(Wire):
     close_reason: CloseReason | None = None
     verdict: Verdict | None = None
     verdict_source: VerdictSource | None = None
+    rule: Annotated[Aggregation | None, Field(description="by which the trainers' verdict was reached")] = None
+    superseded_by: Annotated[int | None, Field(description="the proposal that was approved first")] = None
+    electorate: Annotated[list[str], Field(description="whose votes are asked for")] = []
+    heard: Annotated[list[str], Field(description="who has voted, in order; what, is told once it is closed")] = []
     audit: Audit = False
     gate: GateDecision | None = None
     purpose: Literal["training", "evaluation"] = "training"
@@ -280,6 +264,7 @@ class FeedbackCreate(Wire):
     value: Answer
     trainer: TrainerName = "local"
     estimate_shown: EstimateShown = None
+    looked: Looked | None = None
 
     @property
     def label(self) -> int | None:

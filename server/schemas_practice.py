@@ -7,9 +7,10 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from server.schemas import Overlay, RowId, View, Wire
+from server.schemas import RowId, Wire
 from server.schemas_labels import Answer, ClickId, TrainerName
 from server.schemas_quality import PracticeRequired, Share
+from server.schemas_views import Overlay, View
 
 
 class PracticeCreate(Wire):

@@ -6,7 +6,7 @@ A write returns only after its commit. Reads see what is committed. Errors are t
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -25,6 +25,8 @@ from server import (
     store_proposals,
     store_records,
     store_trust,
+    store_undo,
+    store_votes,
 )
 from server import store_wire as wire
 from server.database import Database, resolve
@@ -33,6 +35,7 @@ from server.store_errors import BadCursor, Conflict, Full, NewerDatabase, NotFou
 from server.store_reads import Reads
 from server.store_upgrade import prepare
 from server.store_values import (
+    Concluded,
     EpisodeOutcome,
     NewProposal,
     NewView,
@@ -102,8 +105,19 @@ class Store(Reads):
         return await self._write(create)
 
     async def update_experiment(self, experiment_id: int, change: schemas.ExperimentUpdate) -> schemas.Experiment:
-        """Change name, mode or time-out; a field left out stays."""
-        return await self._write(lambda s: wire.experiment(store_experiments.update(s, experiment_id, change)))
+        """Change what may change live; a field left out stays."""
+        return (await self.update_and_conclude(experiment_id, change))[0]
+
+    async def update_and_conclude(
+        self, experiment_id: int, change: schemas.ExperimentUpdate
+    ) -> tuple[schemas.Experiment, list[Concluded]]:
+        """The same, and the open proposals that a new rule has closed by the votes they had."""
+
+        def update(session: Session) -> tuple[schemas.Experiment, list[Concluded]]:
+            row, concluded = store_votes.update(session, experiment_id, change)
+            return wire.experiment(row), concluded
+
+        return await self._write(update)
 
     async def transition(
         self,
@@ -170,18 +184,26 @@ class Store(Reads):
         return await self._write(lambda s: wire.proposal(store_proposals.close_proposal(s, proposal_id, reason)))
 
     async def submit_feedback(
-        self, proposal_id: int, click: schemas.FeedbackCreate, *, kind: str = "person"
+        self, proposal_id: int, click: schemas.FeedbackCreate, *, kind: str = "person", refused: str | None = None
     ) -> Submission:
-        """Store a click: counted, late, or known already. See `store_proposals.submit`."""
-        return await self._write(lambda s: store_proposals.submit(s, proposal_id, click, kind))
+        """Store a click: counted, late, or known already. See `store_votes.submit`."""
+        return await self._write(lambda s: store_votes.submit(s, proposal_id, click, kind, refused))
+
+    async def leave_electorates(self, experiment_id: int, names: Collection[str]) -> list[Concluded]:
+        """Wait for these trainers no longer, on any open proposal. See `store_votes.leave`."""
+        return await self._write(lambda s: store_votes.leave(s, experiment_id, names))
+
+    async def enter_electorates(self, experiment_id: int, names: Sequence[str]) -> list[Concluded]:
+        """Ask these trainers for the open proposals that nobody is left to judge."""
+        return await self._write(lambda s: store_votes.enter(s, experiment_id, names))
 
     async def relabel(self, feedback_id: int, body: schemas_labels.RelabelCreate, *, anybodys: bool) -> Relabelled:
         """Correct a click on a closed proposal. See `store_labels.relabel`."""
         return await self._write(lambda s: store_labels.relabel(s, feedback_id, body, anybodys=anybodys))
 
-    async def undo_feedback(self, feedback_id: int) -> Undone:
-        """Take the newest click back while nothing has moved."""
-        return await self._write(lambda s: store_proposals.undo(s, feedback_id))
+    async def undo_feedback(self, feedback_id: int, *, keep: Collection[int] = (), by: str | None = None) -> Undone:
+        """Take a trainer's newest click back while nothing has moved. See `store_undo.undo`."""
+        return await self._write(lambda s: store_undo.undo(s, feedback_id, keep=keep, by=by))
 
     async def consider(self, proposal_id: int, *, simulated: bool) -> store_trust.Considered:
         """Whether the critic approves the open proposal by itself; stored, if it does. See `store_trust.consider`."""
@@ -191,7 +213,7 @@ class Store(Reads):
 
     async def record_evaluation_approval(self, proposal_id: int) -> schemas.Proposal:
         """The verdict +1 of an evaluation for its own proposal."""
-        return await self._write(lambda s: wire.proposal(store_proposals.approve_evaluation(s, proposal_id)))
+        return await self._write(lambda s: wire.proposal(store_votes.approve_evaluation(s, proposal_id)))
 
     async def begin_execution(
         self,

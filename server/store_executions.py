@@ -13,7 +13,10 @@ from server.models import ExecutionRow, ExperimentRow, ProposalRow
 from server.models_incidents import ViolationRow
 from server.store_errors import Conflict, NotFound
 from server.store_experiments import journal, load, now
+from server.store_labels import labels_of
 from server.store_proposals import load_proposal
+from server.store_values import StoredLabel
+from server.store_wire import proposal as proposal_wire
 
 
 def begin(
@@ -57,6 +60,8 @@ def begin(
     if not decision.allowed:
         session.flush()
         return decision, None
+    if proposal.purpose == "training":
+        _supersede(session, proposal)
     row = ExecutionRow(experiment_id=experiment.id, robot=proposal.robot, proposal=proposal, started_at=now())
     session.add(row)
     if proposal.purpose == "training":
@@ -66,6 +71,14 @@ def begin(
     session.flush()
     journal(session, experiment.id, "execution_started", execution=row.id, proposal=proposal_id, digest=proposal.digest)
     return decision, row
+
+
+def superseded_by(session: Session, proposal_id: int) -> tuple[list[schemas.Proposal], list[StoredLabel]]:
+    """The proposals that this one's approval has closed or overtaken, oldest first, and the labels that train by it."""
+    query = select(ProposalRow).where(ProposalRow.superseded_by == proposal_id).order_by(ProposalRow.number)
+    rows = session.scalars(query).all()
+    closed = [row for row in rows if row.close_reason == schemas.CloseReason.SUPERSEDED]
+    return [proposal_wire(row) for row in rows], [label for row in closed for label in labels_of(session, row.id)]
 
 
 def end(
@@ -128,6 +141,31 @@ def end(
                 detail=violation.detail,
             )
     return row
+
+
+def _supersede(session: Session, approved: ProposalRow) -> None:
+    """The robot moves by this one: its other proposals for the same scene are closed, those approved too late are shut.
+
+    Votes on them still train.
+    """
+    others = select(ProposalRow).where(
+        ProposalRow.experiment_id == approved.experiment_id,
+        ProposalRow.robot == approved.robot,
+        ProposalRow.id != approved.id,
+        ProposalRow.purpose == "training",
+    )
+    for row in session.scalars(others.where(ProposalRow.closed_at.is_(None))):
+        row.closed_at, row.close_reason = now(), schemas.CloseReason.SUPERSEDED.value
+        row.superseded_by = approved.id
+        journal(session, row.experiment_id, "proposal_closed", proposal=row.id, reason=row.close_reason)
+    late = others.where(
+        ProposalRow.episode_id == approved.episode_id,
+        ProposalRow.verdict == schemas.Verdict.GOOD.value,
+        ProposalRow.gate_allowed.is_(None),
+    )
+    for row in session.scalars(late):
+        row.gate_allowed, row.gate_reason, row.superseded_by = False, "another proposal was approved first", approved.id
+        journal(session, row.experiment_id, "gate", proposal=row.id, allowed=False, reason=row.gate_reason)
 
 
 def _decide(

@@ -71,7 +71,7 @@ def update(session: Session, experiment_id: int, change: schemas.ExperimentUpdat
     """Change what the body names; a field left out stays, a null time-out means never."""
     row = load(session, experiment_id)
     fields = change.model_dump(mode="json", exclude_unset=True)
-    for required in ("name", "mode", "gold_rate"):
+    for required in ("name", "mode", "aggregation", "together", "gold_rate"):
         if fields.get(required, "") is None:
             del fields[required]
     if "auto_approval" in fields:
@@ -79,6 +79,9 @@ def update(session: Session, experiment_id: int, change: schemas.ExperimentUpdat
         fields["auto_approval"] = change.auto_approval.model_dump() if change.auto_approval else None
         newest = select(func.max(ProposalRow.number)).where(ProposalRow.experiment_id == experiment_id)
         row.auto_approval_since, row.auto_approval_suspended = session.scalar(newest) or 0, None
+    if change.together is not None and "together" in fields:
+        # of these each stays by itself
+        fields["together"] = row.together | change.together.model_dump(mode="json", exclude_none=True)
     for name, value in fields.items():
         setattr(row, name, value)
     if fields:

@@ -121,7 +121,8 @@ def _labels(session: Session, *where: ColumnElement[bool]) -> list[StoredLabel]:
             ProposalRow.purpose == "training",
             ProposalRow.known_answer.is_(None),
             # a time-out trains nothing, whoever voted before it; where nobody could tell, a correction does
-            or_(ProposalRow.verdict.is_not(None), ProposalRow.close_reason == "cant_tell"),
+            # and what was said of a proposal before another one was approved is as true as ever
+            or_(ProposalRow.verdict.is_not(None), ProposalRow.close_reason.in_(("cant_tell", "superseded"))),
         )
         .order_by(FeedbackRow.id)
     )

@@ -13,12 +13,13 @@ from server import (
     schemas,
     schemas_incidents,
     schemas_records,
+    store_executions,
     store_experiments,
     store_labels,
     store_pages,
-    store_proposals,
     store_records,
     store_trust,
+    store_undo,
 )
 from server import store_wire as wire
 from server.database import Database
@@ -67,17 +68,21 @@ class Reads:
         return schemas.ProposalPage(items=items, next_cursor=after)
 
     async def open_proposals(self, experiment_id: int) -> list[schemas.Proposal]:
-        """The proposals that wait for feedback, at most one a robot, oldest first."""
+        """The proposals that wait for feedback, at most one in each slot of a robot, oldest first."""
         row = models.ProposalRow
         query = select(row).where(row.experiment_id == experiment_id, row.closed_at.is_(None)).order_by(row.number)
         return await self._all(query, wire.proposal)
 
-    async def undoable(self, experiment_id: int) -> schemas.Feedback | None:
-        """The feedback that `undo_feedback` would take back now."""
+    async def superseded_by(self, proposal_id: int) -> tuple[list[schemas.Proposal], list[StoredLabel]]:
+        """What the approval of a proposal has closed or overtaken, and what was said of that and trains by it."""
+        return await self._database.read(lambda s: store_executions.superseded_by(s, proposal_id))
+
+    async def undoable(self, experiment_id: int, trainer: str | None = None) -> schemas.Feedback | None:
+        """The newest feedback, of this trainer or of all, if `undo_feedback` would take it back now."""
 
         def find(session: Session) -> schemas.Feedback | None:
-            row = store_proposals.newest_counted(session, experiment_id)
-            return wire.feedback(row) if row and store_proposals.why_not_undoable(session, row) is None else None
+            row = store_undo.newest_counted(session, experiment_id, trainer)
+            return wire.feedback(row) if row and store_undo.why_not_undoable(session, row) is None else None
 
         return await self._database.read(find)
 

@@ -15,7 +15,8 @@ from server.schemas import Lifecycle, Mode, Proposal, Verdict
 from server.schemas_trust import AutoApproval, AutoApprovalRecord, Calibration, CalibrationBin, VerdictSource
 from server.store_experiments import journal, load, now, state
 from server.store_labels import value_now
-from server.store_proposals import judge, load_proposal
+from server.store_proposals import load_proposal
+from server.store_votes import judge
 from server.store_wire import proposal as proposal_wire
 
 NEEDED = 20

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from robot_adapters.base import SkillCall
-from server.schemas import Feedback, Overlay, Proposal
+from server.schemas import Feedback, Proposal
+from server.schemas_views import Overlay
 
 Purpose = Literal["training", "evaluation"]
 EpisodeOutcome = Literal["success", "horizon", "violation", "reset", "interrupted"]
@@ -29,8 +30,9 @@ class NewProposal:
     """A proposal to open. `state` is the task's vector; parameters are metres and radians, robot base frame.
 
     taken_at: seconds since the epoch. electorate: the trainers whose votes majority and unanimous ask for.
-    robot: index of the robot that saw the observation and would run the call. rule_answer: what the task's rule says
-    of the call where that is clear, +1 or -1; it is looked at only if the proposal is drawn to measure trainers.
+    robot: index of the robot that saw the observation and would run the call. slot: which of its open proposals.
+    rule_answer: what the task's rule says of the call where that is clear, +1 or -1; it is looked at only if the
+    proposal is drawn to measure trainers.
     """
 
     experiment_id: int
@@ -48,6 +50,7 @@ class NewProposal:
     purpose: Purpose = "training"
     electorate: Sequence[str] = ("local",)
     robot: int = 0
+    slot: int = 0
     rule_answer: int | None = None
 
 
@@ -64,11 +67,24 @@ class StoredLabel:
 
 @dataclass(frozen=True)
 class Submission:
-    """What became of a click. `closed` is the proposal if this very click closed it; `labels` train by that."""
+    """What became of a click. `closed` is the proposal if this very click closed it; `labels` train by that.
+
+    heard: the proposal, now that this vote is counted. late_because: why it isn't, in words.
+    """
 
     feedback: Feedback
     duplicate: bool
+    heard: Proposal | None = None
     closed: Proposal | None = None
+    labels: Sequence[StoredLabel] = ()
+    late_because: str | None = None
+
+
+@dataclass(frozen=True)
+class Concluded:
+    """An open proposal whose votes were added up anew without a click; `labels` train if that has closed it."""
+
+    proposal: Proposal
     labels: Sequence[StoredLabel] = ()
 
 
@@ -85,7 +101,10 @@ class Relabelled:
 
 @dataclass(frozen=True)
 class Undone:
-    """A click taken back: its proposal is open again, and the one opened meanwhile is withdrawn."""
+    """A click taken back: its proposal is open again, and the one opened meanwhile is withdrawn.
+
+    Where others' votes lead to the same verdict, `reopened` is still closed.
+    """
 
     feedback: Feedback
     reopened: Proposal

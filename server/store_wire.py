@@ -8,7 +8,9 @@ from server.schemas_catalogue import Trainer
 from server.schemas_incidents import Incident, Report, Violation
 from server.schemas_labels import Relabel, answer_of
 from server.schemas_quality import PracticeRequired
+from server.schemas_together import Together
 from server.schemas_trust import AutoApproval, VerdictSource
+from server.schemas_views import View
 
 
 def experiment(row: models.ExperimentRow) -> schemas.Experiment:
@@ -38,6 +40,7 @@ def experiment(row: models.ExperimentRow) -> schemas.Experiment:
         auto_approval=AutoApproval.model_validate(row.auto_approval) if row.auto_approval else None,
         auto_approval_suspended=row.auto_approval_suspended,
         gold_rate=row.gold_rate,
+        together=Together.model_validate(row.together),
         practice_required=PracticeRequired.model_validate(row.practice_required) if row.practice_required else None,
         counters=schemas.Counters(**counters),
         created_at=row.created_at,
@@ -54,6 +57,7 @@ def proposal(row: models.ProposalRow) -> schemas.Proposal:
         id=row.id,
         experiment_id=row.experiment_id,
         robot=row.robot,
+        slot=row.slot,
         episode=row.episode.number,
         number=row.number,
         observation_id=row.observation.uid,
@@ -67,7 +71,7 @@ def proposal(row: models.ProposalRow) -> schemas.Proposal:
         policy_version=row.policy_version,
         subgoal=row.subgoal,
         views=[
-            schemas.View.model_validate({**view, "url": f"/api/v1/proposals/{row.id}/images/{view['camera']}"})
+            View.model_validate({**view, "url": f"/api/v1/proposals/{row.id}/images/{view['camera']}"})
             for view in row.views
         ],
         opened_at=row.opened_at,
@@ -75,6 +79,10 @@ def proposal(row: models.ProposalRow) -> schemas.Proposal:
         close_reason=schemas.CloseReason(row.close_reason) if row.close_reason else None,
         verdict=schemas.Verdict(row.verdict) if row.verdict else None,
         verdict_source=VerdictSource(row.verdict_source) if row.verdict_source else None,
+        rule=schemas.Aggregation(row.rule) if row.rule else None,
+        superseded_by=row.superseded_by,
+        electorate=row.electorate,
+        heard=[vote.trainer.name for vote in row.votes],
         audit=row.audit,
         gate=gate,
         purpose="evaluation" if row.purpose == "evaluation" else "training",

@@ -13,7 +13,6 @@ from server import practising
 from server.models_quality import PracticeRow
 from server.routes.dependencies import Id, Running, errors
 from server.routes.proposals import IMAGE, picture
-from server.schemas import Overlay, View
 from server.schemas_labels import TrainerName, answer_of
 from server.schemas_practice import (
     PracticeAnswer,
@@ -24,6 +23,7 @@ from server.schemas_practice import (
     PracticeResult,
     PracticeSlip,
 )
+from server.schemas_views import Overlay, View
 from server.service import Service
 
 router = APIRouter(tags=["practice"])

@@ -13,7 +13,8 @@ import pytest_asyncio
 from sqlalchemy import URL, create_engine, make_url
 
 from robot_adapters.base import SkillCall
-from server.schemas import Experiment, ExperimentCreate, FeedbackCreate, Overlay, Proposal
+from server.schemas import Experiment, ExperimentCreate, FeedbackCreate, Proposal
+from server.schemas_views import Overlay
 from server.store import NewProposal, NewView, Store
 
 _numbers = itertools.count(1)

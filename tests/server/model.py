@@ -36,7 +36,11 @@ class Proposal:
     observation: str
     episode: int
     parameters: dict[str, float]
+    slot: int
+    electorate: list[str]
+    born: int
     open: bool = True
+    superseded: bool = False
     verdict: str | None = None
     decided: bool = False
     execution: Execution | None = None
@@ -46,13 +50,14 @@ class Proposal:
 class Execution:
     id: int
     proposal: Proposal
+    born: int
     outcome: str | None = None
 
 
 @dataclass
 class Experiment:
     id: int
-    majority: bool
+    rule: str
     lifecycle: str = "created"
     halted: bool = False
     mode: str = "execute_approved"
@@ -61,14 +66,23 @@ class Experiment:
     observation: int = 0
     proposals: list[Proposal] = field(default_factory=list)
     clicks: list[Click] = field(default_factory=list)
+    age: int = 0
+
+    def tick(self) -> int:
+        """The order of openings and motions."""
+        self.age += 1
+        return self.age
 
     @property
     def at_work(self) -> bool:
         return self.lifecycle == "running" and not self.halted
 
     @property
-    def open_proposal(self) -> Proposal | None:
-        return next((p for p in self.proposals if p.open), None)
+    def open_proposals(self) -> list[Proposal]:
+        return [p for p in self.proposals if p.open]
+
+    def at(self, slot: int) -> Proposal | None:
+        return next((p for p in self.open_proposals if p.slot == slot), None)
 
     @property
     def executions(self) -> list[Execution]:
@@ -78,15 +92,34 @@ class Experiment:
     def moving(self) -> Execution | None:
         return next((e for e in self.executions if e.outcome is None), None)
 
+    def supersede(self) -> tuple[int, int]:
+        """The robot moves: how many open proposals are closed by that, and how many were approved too late."""
+        opened = self.open_proposals
+        late = [p for p in self.proposals if p.verdict == "good" and not p.decided and p.episode == self.episode]
+        for proposal in opened:
+            proposal.open, proposal.superseded = False, True
+        for proposal in late:
+            proposal.decided = True
+        return len(opened), len(late)
+
     def votes(self, proposal: Proposal) -> list[Click]:
         return [c for c in self.clicks if c.proposal is proposal and c.counted]
 
 
-def verdict_of(majority: bool, values: list[int]) -> str | None:
+def verdict_of(rule: str, votes: list[Click], electorate: list[str]) -> str | None:
     name = {1: "good", 0: "neutral", -1: "bad"}
-    if not majority:
-        return name[values[0]]
+    if not votes:
+        return None
+    if rule == "first":
+        return name[votes[0].value]
+    values = [vote.value for vote in votes if vote.trainer in electorate]
+    missing = len(electorate) - len(values)
+    if rule == "unanimous":
+        if -1 in values:
+            return "bad"
+        return None if missing else "good" if set(values) == {1} else "neutral"
     for value, word in name.items():
-        if values.count(value) >= 2:
+        if 2 * values.count(value) > len(electorate):
             return word
-    return "neutral" if len(values) == 3 else None
+    reachable = [value for value in name if 2 * (values.count(value) + missing) > len(electorate)]
+    return None if values and reachable else "neutral" if values else None

@@ -19,7 +19,8 @@ from robot_adapters.base import SkillCall
 from server.app import create_app
 from server.cli_serve import Server, config
 from server.images import Images
-from server.schemas import Overlay, Proposal
+from server.schemas import Proposal
+from server.schemas_views import Overlay
 from server.service import Service, opened
 from server.settings import Settings
 from server.store_values import NewProposal, NewView

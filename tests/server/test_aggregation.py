@@ -109,3 +109,56 @@ def test_one_who_cant_tell_waits_for_whoever_else_is_there() -> None:
     assert not nobody_could_tell({"ann": None}, ("ann", "bob"))
     assert not nobody_could_tell({}, ())
     assert not nobody_could_tell({"ann": None, "bob": 0}, ("ann", "bob"))
+
+
+WEIGHTED = Aggregation.WEIGHTED
+EXPERT = {"ann": 0.95}
+"""Strength 2.94, and each of the others 0.69."""
+
+
+@pytest.mark.parametrize(
+    ("electorate", "votes", "weights", "expected", "alone"),
+    [
+        (3, (1, 1), {}, G, G),  # nobody is measured: a majority
+        (3, (1, -1), {}, None, None),
+        (3, (1, -1, 0), {}, N, N),
+        (2, (1, -1), {}, N, N),
+        (3, (1,), EXPERT, None, G),  # more than half of the strength, but one head of three
+        (3, (1, 1), EXPERT, G, G),
+        (3, (1, -1, -1), EXPERT, N, G),  # half of the heads never said good
+        (3, (-1,), EXPERT, B, B),  # nothing moves by a bad: the strength is enough
+        (3, (-1, 1, 1), EXPERT, B, B),
+        (3, (-1, 1, 1), {"ann": 0.5}, G, G),  # at chance: no strength
+        (3, (-1, 1, 1), {"ann": 0.05}, G, G),  # nor is a label that is usually wrong turned round
+        (3, (1, 1, 1), dict.fromkeys(NAMES, 0.5), N, N),  # nobody is worth anything: nothing moves
+        (1, (1,), {"ann": 0.4}, N, N),
+        (4, (1, 1, -1, -1), {"ann": 0.8, "bob": 0.8}, N, G),
+        (3, (None, 1, -1), EXPERT, N, N),  # who can't tell isn't asked
+        (3, (None, 1, 1), EXPERT, G, G),
+    ],
+)
+def test_weighted_examples(
+    electorate: int, votes: tuple[int, ...], weights: dict[str, float], expected: Verdict | None, alone: Verdict | None
+) -> None:
+    cast, asked = dict(zip(NAMES, votes, strict=False)), NAMES[:electorate]
+    assert verdict(WEIGHTED, cast, asked, weights=weights) == expected
+    assert verdict(WEIGHTED, cast, asked, weights=weights, alone=True) == alone
+
+
+@pytest.mark.parametrize("weights", [{}, EXPERT, {"ann": 0.9, "bob": 0.6, "cyd": 0.2}])
+@pytest.mark.parametrize("alone", [False, True])
+def test_a_weighted_verdict_is_certain_and_its_good_has_the_heads_unless_it_may_do_without(
+    weights: dict[str, float], alone: bool
+) -> None:
+    for size in (1, 2, 3, 4):
+        for values in itertools.product((-1, 0, 1), repeat=size):
+            found = []
+            for order in (NAMES[:size], NAMES[:size][::-1]):
+                cast = [{n: values[NAMES.index(n)] for n in order[:heard]} for heard in range(size + 1)]
+                told = [verdict(WEIGHTED, votes, NAMES[:size], weights=weights, alone=alone) for votes in cast]
+                assert told[0] is None
+                assert {v for v in told if v is not None} == {told[-1]}
+                found.append(told[-1])
+            assert len(set(found)) == 1, "the order of votes doesn't matter"
+            if not alone:
+                assert (found[0] is G) <= (2 * values.count(1) > size)

@@ -1537,7 +1537,7 @@ export interface components {
          * @description How several trainers' feedback on one proposal adds up to a verdict.
          * @enum {string}
          */
-        Aggregation: "first" | "majority" | "unanimous";
+        Aggregation: "first" | "majority" | "unanimous" | "weighted";
         /**
          * AgreementInfo
          * @description Krippendorff's alpha, ordinal over bad, neutral and good; late clicks count, who can't tell is missing.
@@ -1859,9 +1859,11 @@ export interface components {
         /**
          * CloseReason
          * @description Why a proposal is no longer open. `cant_tell`: nobody could tell from the views, so there is no verdict.
+         *
+         *     `superseded`: another one for the same state was approved, and the robot moves by that; votes on it still train.
          * @enum {string}
          */
-        CloseReason: "judged" | "cant_tell" | "timed_out" | "withdrawn" | "interrupted";
+        CloseReason: "judged" | "cant_tell" | "superseded" | "timed_out" | "withdrawn" | "interrupted";
         /**
          * Counters
          * @description What happened so far in an experiment.
@@ -2237,6 +2239,15 @@ export interface components {
              */
             gold_rate: number;
             practice_required: components["schemas"]["PracticeRequired"] | null;
+            /**
+             * @default {
+             *       "parallel": false,
+             *       "weighted_approves": false,
+             *       "lease_seconds": 60,
+             *       "vanish_seconds": 10
+             *     }
+             */
+            together: components["schemas"]["Together"];
             counters: components["schemas"]["Counters"];
             /**
              * Created At
@@ -2362,6 +2373,15 @@ export interface components {
              */
             gold_rate: number;
             practice_required?: components["schemas"]["PracticeRequired"] | null;
+            /**
+             * @default {
+             *       "parallel": false,
+             *       "weighted_approves": false,
+             *       "lease_seconds": 60,
+             *       "vanish_seconds": 10
+             *     }
+             */
+            together: components["schemas"]["Together"];
         };
         /**
          * ExperimentPage
@@ -2381,12 +2401,14 @@ export interface components {
             /** Name */
             name?: string | null;
             mode?: components["schemas"]["Mode"] | null;
+            aggregation?: components["schemas"]["Aggregation"] | null;
             /** Feedback Timeout */
             feedback_timeout?: number | null;
             auto_approval?: components["schemas"]["AutoApproval"] | null;
             /** Gold Rate */
             gold_rate?: number | null;
             practice_required?: components["schemas"]["PracticeRequired"] | null;
+            together?: components["schemas"]["TogetherUpdate"] | null;
         };
         /**
          * Feedback
@@ -2460,6 +2482,7 @@ export interface components {
              * @description whether the page showed the predicted feedback when it was clicked; null: it wasn't told
              */
             estimate_shown?: boolean | null;
+            looked?: components["schemas"]["Looked"] | null;
         };
         /**
          * FeedbackPage
@@ -2772,6 +2795,16 @@ export interface components {
          * @enum {string}
          */
         Lifecycle: "created" | "running" | "paused" | "finished" | "failed" | "archived";
+        /**
+         * Looked
+         * @description What a trainer saw when they clicked. Where it isn't what the proposal shows, the click decides nothing.
+         */
+        Looked: {
+            /** Observation Id */
+            observation_id: string;
+            /** Policy Version */
+            policy_version: number;
+        };
         /**
          * MetricPage
          * @description Metric points, oldest first.
@@ -3159,6 +3192,12 @@ export interface components {
              */
             robot: number;
             /**
+             * Slot
+             * @description which of the robot's open proposals at once, from 0
+             * @default 0
+             */
+            slot: number;
+            /**
              * Episode
              * @description number of the episode in its experiment, from 1
              */
@@ -3213,6 +3252,25 @@ export interface components {
             close_reason: components["schemas"]["CloseReason"] | null;
             verdict: components["schemas"]["Verdict"] | null;
             verdict_source: components["schemas"]["VerdictSource"] | null;
+            /** @description by which the trainers' verdict was reached */
+            rule: components["schemas"]["Aggregation"] | null;
+            /**
+             * Superseded By
+             * @description the proposal that was approved first
+             */
+            superseded_by: number | null;
+            /**
+             * Electorate
+             * @description whose votes are asked for
+             * @default []
+             */
+            electorate: string[];
+            /**
+             * Heard
+             * @description who has voted, in order; what, is told once it is closed
+             * @default []
+             */
+            heard: string[];
             /**
              * Audit
              * @description the critic would have approved it; a trainer was asked to check the critic
@@ -3925,6 +3983,50 @@ export interface components {
              * @default
              */
             words: string;
+        };
+        /**
+         * Together
+         * @description How several trainers share the proposals of one experiment.
+         */
+        Together: {
+            /**
+             * Parallel
+             * @description each trainer gets a proposal of their own; the first that is approved closes the others
+             * @default false
+             */
+            parallel: boolean;
+            /**
+             * Weighted Approves
+             * @description whether the rule `weighted` may approve by estimated reliability alone; else more than half of the heads have to say good as well
+             * @default false
+             */
+            weighted_approves: boolean;
+            /**
+             * Lease Seconds
+             * @description how long a proposal stays with the trainer it was given to, without a sign that they look at it
+             * @default 60
+             */
+            lease_seconds: number;
+            /**
+             * Vanish Seconds
+             * @description how long a trainer who is gone is waited for before the proposals that are open are decided without them
+             * @default 10
+             */
+            vanish_seconds: number;
+        };
+        /**
+         * TogetherUpdate
+         * @description What may change of it live; a field left out stays.
+         */
+        TogetherUpdate: {
+            /** Parallel */
+            parallel: boolean | null;
+            /** Weighted Approves */
+            weighted_approves: boolean | null;
+            /** Lease Seconds */
+            lease_seconds: number | null;
+            /** Vanish Seconds */
+            vanish_seconds: number | null;
         };
         /**
          * Trainer

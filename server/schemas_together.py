@@ -1,0 +1,66 @@
+"""Several trainers on one experiment, on the wire: how they share its proposals, and who is at which."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field, StrictBool, StrictInt
+
+
+class _Wire(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+LeaseSeconds = Annotated[
+    float,
+    Field(
+        ge=1,
+        le=3600,
+        allow_inf_nan=False,
+        description="how long a proposal stays with the trainer it was given to, without a sign that they look at it",
+    ),
+]
+VanishSeconds = Annotated[
+    float,
+    Field(
+        ge=0,
+        le=600,
+        allow_inf_nan=False,
+        description="how long a trainer who is gone is waited for before the proposals that are open are decided"
+        " without them",
+    ),
+]
+
+
+class Together(_Wire):
+    """How several trainers share the proposals of one experiment."""
+
+    parallel: Annotated[
+        StrictBool,
+        Field(description="each trainer gets a proposal of their own; the first that is approved closes the others"),
+    ] = False
+    weighted_approves: Annotated[
+        StrictBool,
+        Field(
+            description="whether the rule `weighted` may approve by estimated reliability alone; else more than half of"
+            " the heads have to say good as well"
+        ),
+    ] = False
+    lease_seconds: LeaseSeconds = 60.0
+    vanish_seconds: VanishSeconds = 10.0
+
+
+class TogetherUpdate(_Wire):
+    """What may change of it live; a field left out stays."""
+
+    parallel: StrictBool | None = None
+    weighted_approves: StrictBool | None = None
+    lease_seconds: LeaseSeconds | None = None
+    vanish_seconds: VanishSeconds | None = None
+
+
+class Looked(_Wire):
+    """What a trainer saw when they clicked. Where it isn't what the proposal shows, the click decides nothing."""
+
+    observation_id: Annotated[str, Field(max_length=200)]
+    policy_version: StrictInt
