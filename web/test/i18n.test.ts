@@ -3,7 +3,7 @@ import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import ts from "typescript";
 import { afterAll, describe, expect, it } from "vitest";
-import { chooseLanguage, LANGUAGES, language, matching, nameOf, t } from "../src/i18n";
+import { chooseLanguage, LANGUAGES, language, matching, nameOf, t, taskWords } from "../src/i18n";
 import { decimal, percent, signed } from "../src/i18n/numbers";
 
 const LOCALES = join("src", "i18n", "locales");
@@ -177,4 +177,11 @@ it("is remembered and told to the browser", async () => {
   expect(t("judge.good")).toBe("Gut");
   expect(t("robots.wait", { count: 1 })).toBe("1 Vorschlag wartet");
   expect([decimal(0.15), percent(0.063, 1), signed(-0.5)]).toEqual(["0,15", "6,3 %", "−0,50"]);
+});
+
+it("says a task's own words in the reader's language, and a foreign task's as they are", async () => {
+  await chooseLanguage("de");
+  expect(taskWords("pick up the red block")).toBe("Nimm den roten Klotz auf");
+  expect(taskWords("Move the gripper into the blue area.")).toContain("blauen Bereich");
+  expect(taskWords("juggle three eggs")).toBe("juggle three eggs");
 });

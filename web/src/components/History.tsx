@@ -1,7 +1,7 @@
 // The newest proposals as a strip of pictures with one's own labels; a press opens one, to look again or to correct.
 import { type ReactNode, useState } from "react";
 import { type Entry, FILTERS, type Filter, type History, shown } from "../history";
-import { skillName, t } from "../i18n";
+import { skillName, t, taskWords } from "../i18n";
 import { signed } from "../i18n/numbers";
 import type { Value, View } from "../wire";
 import { Dialog } from "./Dialog";
@@ -171,7 +171,7 @@ function Past(props: {
       </div>
       <p className="soft">
         {[
-          proposal.subgoal ?? "",
+          taskWords(proposal.subgoal ?? ""),
           t("history.expected", { value: signed(proposal.predicted_feedback) }),
           execution?.outcome ? t(`history.outcome_${execution.outcome}`) : "",
           ...(execution?.violations.map(({ detail }) => t("notice.violation", { violation: detail })) ?? []),

@@ -1,7 +1,7 @@
 // For whoever keeps the robot safe: its state in words and figures, a new episode by hand, and what went wrong.
 import { useState } from "react";
 import { activity } from "../activity";
-import { t } from "../i18n";
+import { t, taskWords } from "../i18n";
 import type { Session } from "../session";
 import type { TrainerState } from "../state";
 import type { Experiment, TaskInfo } from "../wire";
@@ -31,7 +31,9 @@ export function ResetDialog(props: {
       ) : (
         <ol className="by-hand">
           <li>{t("operator.resetStop")}</li>
-          <li data-testid="by-hand">{task?.by_hand || t("operator.resetUnknown")}</li>
+          <li data-testid="by-hand">
+            {task?.by_hand ? taskWords(task.by_hand) : t("operator.resetUnknown")}
+          </li>
           <li>{t("operator.resetAway")}</li>
         </ol>
       )}

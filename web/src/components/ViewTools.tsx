@@ -1,6 +1,6 @@
 // Over the views: what comes next in words, and what is drawn into them, each by a button and by a key.
 import { type ReactNode, useEffect, useEffectEvent } from "react";
-import { t } from "../i18n";
+import { t, taskWords } from "../i18n";
 import { change, type Settings, useSettings } from "../settings";
 import { dialogOpen } from "./Dialog";
 import { Gauge, Ghost, Orbit, Question, Room } from "./icons";
@@ -34,7 +34,7 @@ export function ViewTools({ subgoal, onTour }: { subgoal: string | null; onTour:
       <p className="next" data-testid="subgoal">
         {subgoal && (
           <>
-            <span className="soft">{t("agent.next")}</span> <b>{subgoal}</b>
+            <span className="soft">{t("agent.next")}</span> <b>{taskWords(subgoal)}</b>
           </>
         )}
       </p>

@@ -42,6 +42,17 @@ export function skillName(skill: string): string {
   return library.exists(`skill.${skill}`) ? library.t(`skill.${skill as "pick"}`) : skill;
 }
 
+/** What a task says, in the reader's language where it is one of ours; a foreign task speaks for itself. */
+export function taskWords(text: string): string {
+  const key = text
+    .toLowerCase()
+    .replace(/[^a-z]+/g, "_")
+    .replace(/^_/, "")
+    .slice(0, 60)
+    .replace(/_$/, "");
+  return library.exists(`task.${key}`) ? library.t(`task.${key as "pick_up_the_red_block"}`) : text;
+}
+
 export function language(): string {
   return library.language;
 }
