@@ -28,6 +28,7 @@ from server.schemas import (
     Proposal,
 )
 from server.schemas_labels import RelabelCreate
+from server.schemas_listing import Listing
 from server.settings import Settings
 from server.store import Conflict, NotFound, Receipt, Store, StoreError
 
@@ -69,9 +70,9 @@ class Hub:
         """The experiment with its live phase."""
         return self._live(await self.store.experiment(experiment_id))
 
-    async def views(self, cursor: str | None = None, limit: int = 50) -> ExperimentPage:
-        """Experiments, newest first, with their live phases."""
-        page = await self.store.experiments(cursor=cursor, limit=limit)
+    async def views(self, cursor: str | None = None, limit: int = 50, listing: Listing | None = None) -> ExperimentPage:
+        """Experiments, newest first unless the listing says otherwise, with their live phases."""
+        page = await self.store.experiments(cursor=cursor, limit=limit, listing=listing)
         return page.model_copy(update={"items": [self._live(item) for item in page.items]})
 
     async def snapshot(self, experiment_id: int, boot_id: str) -> Snapshot:

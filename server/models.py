@@ -23,6 +23,7 @@ from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column, relationship
 
 if TYPE_CHECKING:
     from server.models_incidents import ReportRow, ViolationRow
+    from server.models_tags import TagRow
 
 NAMING = {
     "ix": "ix_%(table_name)s_%(column_0_N_name)s",
@@ -124,6 +125,8 @@ class ExperimentRow(Base):
     together: Mapped[dict[str, Any]] = mapped_column(server_default=text("'{}'"))
     created_at: Mapped[datetime]
     updated_at: Mapped[datetime]
+
+    tags: Mapped[list[TagRow]] = relationship(lazy="selectin", order_by="TagRow.tag", cascade="all, delete-orphan")
 
 
 class EpisodeRow(Base):

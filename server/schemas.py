@@ -13,6 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, StrictInt
 
 from server.schemas_incidents import Report, Violation
 from server.schemas_labels import Answer, ClickId, EstimateShown, Relabel, TrainerName, label_of
+from server.schemas_listing import Tags
 from server.schemas_quality import GoldRate, PracticeRequired
 from server.schemas_together import Looked, Together, TogetherUpdate
 from server.schemas_trust import Audit, AutoApproval, Suspended, Uncertainty, VerdictSource
@@ -128,6 +129,7 @@ class ExperimentCreate(Wire):
     gold_rate: GoldRate = 0.0
     practice_required: PracticeRequired | None = None
     together: Together = Together()
+    tags: Tags = []
 
 
 class ExperimentUpdate(Wire):
@@ -141,6 +143,7 @@ class ExperimentUpdate(Wire):
     gold_rate: GoldRate | None = None
     practice_required: PracticeRequired | None = None
     together: TogetherUpdate | None = None
+    tags: Annotated[Tags | None, Field(description="all of them: one that is left out is taken off")] = None
 
 
 class Experiment(Wire):
@@ -171,6 +174,7 @@ class Experiment(Wire):
     gold_rate: float = 0.0
     practice_required: PracticeRequired | None = None
     together: Together = Together()
+    tags: list[str] = []
     counters: Counters
     created_at: datetime
     updated_at: datetime
@@ -348,12 +352,6 @@ class MetricPoint(Wire):
     values: dict[str, float]
 
 
-class MetricPage(Page):
-    """Metric points, oldest first."""
-
-    items: list[MetricPoint]
-
-
 class EvaluationCreate(Wire):
     """Ask for rollouts of the deterministic policy (simulated adapters only)."""
 
@@ -375,9 +373,3 @@ class Evaluation(Wire):
     seed: int
     started_at: datetime
     ended_at: datetime | None = None
-
-
-class EvaluationPage(Page):
-    """Evaluations, newest first."""
-
-    items: list[Evaluation]

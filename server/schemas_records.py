@@ -1,11 +1,11 @@
-"""What an experiment leaves behind on the wire: checkpoints and the journal."""
+"""What an experiment leaves behind on the wire: metrics, evaluations, checkpoints and the journal."""
 
 from __future__ import annotations
 
 from datetime import datetime
 from typing import Any
 
-from server.schemas import Page, Wire
+from server.schemas import Evaluation, MetricPoint, Page, Wire
 
 
 class Checkpoint(Wire):
@@ -38,3 +38,15 @@ class EventPage(Page):
     """Journal lines, oldest first."""
 
     items: list[StoredEvent]
+
+
+class MetricPage(Page):
+    """Metric points, oldest first."""
+
+    items: list[MetricPoint]
+
+
+class EvaluationPage(Page):
+    """Evaluations, newest first."""
+
+    items: list[Evaluation]

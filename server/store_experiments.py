@@ -11,6 +11,7 @@ from sqlalchemy.orm import Session
 
 from server import lifecycle, schemas
 from server.models import EpisodeRow, EvaluationRow, EventRow, ExecutionRow, ExperimentRow, ProposalRow
+from server.models_tags import TagRow
 from server.store_errors import Conflict, NotFound
 from server.store_values import EpisodeOutcome, Purpose
 
@@ -59,8 +60,9 @@ def state(row: ExperimentRow) -> lifecycle.State:
 def create(session: Session, body: schemas.ExperimentCreate, *, lockstep: bool) -> ExperimentRow:
     """A new experiment, in `created`."""
     at = now()
-    fields = body.model_dump(mode="json", exclude={"lockstep"})
+    fields = body.model_dump(mode="json", exclude={"lockstep", "tags"})
     row = ExperimentRow(**fields, lockstep=lockstep, lifecycle="created", failure=None, created_at=at, updated_at=at)
+    row.tags = [TagRow(tag=tag) for tag in body.tags]
     session.add(row)
     session.flush()
     journal(session, row.id, "created", name=row.name)
@@ -71,7 +73,7 @@ def update(session: Session, experiment_id: int, change: schemas.ExperimentUpdat
     """Change what the body names; a field left out stays, a null time-out means never."""
     row = load(session, experiment_id)
     fields = change.model_dump(mode="json", exclude_unset=True)
-    for required in ("name", "mode", "aggregation", "together", "gold_rate"):
+    for required in ("name", "mode", "aggregation", "together", "gold_rate", "tags"):
         if fields.get(required, "") is None:
             del fields[required]
     if "auto_approval" in fields:
@@ -83,7 +85,11 @@ def update(session: Session, experiment_id: int, change: schemas.ExperimentUpdat
         # of these each stays by itself
         fields["together"] = row.together | change.together.model_dump(mode="json", exclude_none=True)
     for name, value in fields.items():
-        setattr(row, name, value)
+        if name == "tags":
+            kept = {each.tag: each for each in row.tags}
+            row.tags = [kept.get(tag) or TagRow(tag=tag) for tag in value]
+        else:
+            setattr(row, name, value)
     if fields:
         row.updated_at = now()
         journal(session, experiment_id, "updated", **fields)

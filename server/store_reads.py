@@ -16,6 +16,7 @@ from server import (
     store_executions,
     store_experiments,
     store_labels,
+    store_listing,
     store_pages,
     store_records,
     store_trust,
@@ -25,6 +26,7 @@ from server import store_wire as wire
 from server.database import Database
 from server.models_incidents import IncidentRow
 from server.schemas_catalogue import TrainerPage
+from server.schemas_listing import Listing
 from server.schemas_trust import AutoApprovalRecord, Calibration
 from server.store_errors import NotFound
 from server.store_quality import QualityStore
@@ -45,11 +47,11 @@ class Reads:
         """One experiment."""
         return await self._one(models.ExperimentRow, experiment_id, "experiment", wire.experiment)
 
-    async def experiments(self, cursor: str | None = None, limit: int = 50) -> schemas.ExperimentPage:
-        """Newest first."""
-        query = select(models.ExperimentRow)
-        items, after = await self._page(query, models.ExperimentRow.id, wire.experiment, cursor, limit)
-        return schemas.ExperimentPage(items=items, next_cursor=after)
+    async def experiments(
+        self, cursor: str | None = None, limit: int = 50, listing: Listing | None = None
+    ) -> schemas.ExperimentPage:
+        """Newest first, unless the listing says otherwise."""
+        return await self.read(lambda s: store_listing.experiments(s, listing or Listing(), cursor, limit))
 
     async def running(self) -> list[int]:
         """Ids of the experiments that run."""
@@ -147,12 +149,14 @@ class Reads:
         query = select(row).where(row.experiment_id == experiment_id, row.ended_at.is_(None)).order_by(row.id)
         return await self._all(query, wire.execution)
 
-    async def metrics(self, experiment_id: int, cursor: str | None = None, limit: int = 50) -> schemas.MetricPage:
+    async def metrics(
+        self, experiment_id: int, cursor: str | None = None, limit: int = 50
+    ) -> schemas_records.MetricPage:
         """Oldest first."""
         row = models.MetricRow
         query = select(row).where(row.experiment_id == experiment_id)
         items, after = await self._page(query, row.id, wire.metric, cursor, limit, of=experiment_id, newest_first=False)
-        return schemas.MetricPage(items=items, next_cursor=after)
+        return schemas_records.MetricPage(items=items, next_cursor=after)
 
     async def evaluation(self, evaluation_id: int) -> schemas.Evaluation:
         """One evaluation."""
@@ -160,12 +164,12 @@ class Reads:
 
     async def evaluations(
         self, experiment_id: int, cursor: str | None = None, limit: int = 50
-    ) -> schemas.EvaluationPage:
+    ) -> schemas_records.EvaluationPage:
         """Newest first."""
         row = models.EvaluationRow
         query = select(row).where(row.experiment_id == experiment_id)
         items, after = await self._page(query, row.id, wire.evaluation, cursor, limit, of=experiment_id)
-        return schemas.EvaluationPage(items=items, next_cursor=after)
+        return schemas_records.EvaluationPage(items=items, next_cursor=after)
 
     async def latest_checkpoint(self, experiment_id: int) -> schemas_records.Checkpoint | None:
         """The newest one."""

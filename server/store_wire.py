@@ -42,6 +42,7 @@ def experiment(row: models.ExperimentRow) -> schemas.Experiment:
         gold_rate=row.gold_rate,
         together=Together.model_validate(row.together),
         practice_required=PracticeRequired.model_validate(row.practice_required) if row.practice_required else None,
+        tags=[each.tag for each in row.tags],
         counters=schemas.Counters(**counters),
         created_at=row.created_at,
         updated_at=row.updated_at,

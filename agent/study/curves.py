@@ -44,13 +44,23 @@ def curve(runs: Sequence[Sequence[Row]], axis: Axis, measure: Measure, points: i
         return None
     reached = [np.array([getattr(row, axis.value) for row in rows], dtype=np.float64) for rows in runs]
     measured = [np.array([value_of(row, measure) for row in rows]) for rows in runs]
+    return joined(reached, measured, points)
+
+
+def joined(reached: Sequence[Array], measured: Sequence[Array], points: int = 100) -> Curve:
+    """Runs at common points, each given by its (k,) points of the axis, ascending, and its (k,) values there.
+
+    A run that was first measured later has its first value before that.
+    """
     end = min(float(x[-1]) for x in reached)
     # the points are those of the run that was measured most often: no value is invented between two evaluations
     densest = max(reached, key=lambda x: int((x <= end).sum()))
     x = np.unique(np.append(densest[densest <= end], end))
     if len(x) > points + 1:
         x = x[np.unique(np.linspace(0, len(x) - 1, points + 1).round().astype(int))]
-    values = [y[np.searchsorted(at, x, side="right") - 1] for at, y in zip(reached, measured, strict=True)]
+    values = [
+        y[np.maximum(np.searchsorted(at, x, side="right") - 1, 0)] for at, y in zip(reached, measured, strict=True)
+    ]
     return Curve(x, np.stack(values))
 
 

@@ -2,15 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Body, Query, Request, Response
 
 from server.idempotency import IdempotencyKey, once
-from server.routes.dependencies import Cursor, Id, Limit, Running, errors
-from server.schemas import Evaluation, EvaluationCreate, Experiment, ExperimentCreate, ExperimentPage, ExperimentUpdate
+from server.routes.dependencies import Id, Limit, Running, errors
+from server.schemas import (
+    Evaluation,
+    EvaluationCreate,
+    Experiment,
+    ExperimentCreate,
+    ExperimentPage,
+    ExperimentUpdate,
+    Lifecycle,
+)
+from server.schemas_listing import MOST_TAGS, Listing, Order, Sort, Tag
 
 router = APIRouter(prefix="/experiments", tags=["experiments"])
+
+Exact = Annotated[str | None, Query(max_length=120, description="of this one only")]
+ListCursor = Annotated[str | None, Query(max_length=2500, description="`next_cursor` of the page before")]
 
 EXAMPLES: dict[str, Any] = {
     "simulated arm, a person judges": {
@@ -32,9 +44,31 @@ EXAMPLES: dict[str, Any] = {
 
 
 @router.get("", responses=errors(422))
-async def list_experiments(service: Running, cursor: Cursor = None, limit: Limit = 50) -> ExperimentPage:
-    """Experiments, newest first."""
-    return await service.hub.views(cursor, limit)
+async def list_experiments(  # noqa: PLR0917  FastAPI makes a query parameter of each
+    service: Running,
+    task: Exact = None,
+    adapter: Exact = None,
+    algorithm: Exact = None,
+    lifecycle: Annotated[Lifecycle | Literal["halted"] | None, Query(description="where it is")] = None,
+    tag: Annotated[list[Tag], Query(max_length=MOST_TAGS, description="carries every one of these")] = [],  # noqa: B006
+    text: Annotated[str | None, Query(max_length=120, description="part of the name or of a tag")] = None,
+    sort: Sort = "created",
+    order: Order = "desc",
+    cursor: ListCursor = None,
+    limit: Limit = 50,
+) -> ExperimentPage:
+    """Experiments, newest first unless told otherwise. A cursor goes on in the order that it came from."""
+    listing = Listing(
+        task=task,
+        adapter=adapter,
+        algorithm=algorithm,
+        lifecycle=lifecycle,
+        tags=tuple(tag),
+        text=text,
+        sort=sort,
+        order=order,
+    )
+    return await service.hub.views(cursor, limit, listing)
 
 
 @router.post("", status_code=201, response_model=Experiment, responses=errors(400, 409, 413, 422))
@@ -61,7 +95,7 @@ async def update_experiment(
     experiment_id: Id,
     body: Annotated[ExperimentUpdate, Body(openapi_examples={"look, don't move": {"value": {"mode": "propose_only"}}})],
 ) -> Experiment:
-    """Change the name, the mode or the time-out, also while it runs."""
+    """Change the name, the tags, the mode or the time-out, also while it runs."""
     return await service.hub.update(experiment_id, body)
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from fastapi import APIRouter
 
 from server.routes.dependencies import Cursor, Id, Limit, Running, errors
-from server.schemas import EvaluationPage, ExecutionPage, MetricPage
+from server.schemas import ExecutionPage
 from server.schemas_catalogue import TrainerPage
-from server.schemas_records import CheckpointPage, EventPage
+from server.schemas_records import CheckpointPage, EvaluationPage, EventPage, MetricPage
 
 router = APIRouter(tags=["records"])
 LISTED = errors(404, 422)

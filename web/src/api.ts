@@ -170,7 +170,7 @@ export interface paths {
         };
         /**
          * List Experiments
-         * @description Experiments, newest first.
+         * @description Experiments, newest first unless told otherwise. A cursor goes on in the order that it came from.
          */
         get: operations["list_experiments"];
         put?: never;
@@ -204,7 +204,7 @@ export interface paths {
         head?: never;
         /**
          * Update Experiment
-         * @description Change the name, the mode or the time-out, also while it runs.
+         * @description Change the name, the tags, the mode or the time-out, also while it runs.
          */
         patch: operations["update_experiment"];
         trace?: never;
@@ -749,6 +749,86 @@ export interface paths {
          * @description Everyone who has judged: people and teachers.
          */
         get: operations["list_trainers"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/experiments/{experiment_id}/curves": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Curves
+         * @description Everything that changed in an experiment, as charts.
+         */
+        get: operations["get_curves"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/comparison": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Compare Experiments
+         * @description One measure of several experiments: a curve each, or mean and standard error of those that are alike.
+         */
+        get: operations["compare_experiments"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/paper-figures": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Paper Figures
+         * @description What the paper's own figures and its safety table show.
+         */
+        get: operations["get_paper_figures"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tags": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Tags
+         * @description Every tag in use.
+         */
+        get: operations["list_tags"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1707,6 +1787,24 @@ export interface components {
             label: number;
         };
         /**
+         * Chart
+         * @description Lines that belong into one picture.
+         */
+        Chart: {
+            /**
+             * Name
+             * @description what is measured; for an algorithm's own metric its name
+             */
+            name: string;
+            /**
+             * Axis
+             * @enum {string}
+             */
+            axis: "feedback" | "low_level_steps" | "proposals" | "decisions";
+            /** Curves */
+            curves: components["schemas"]["Curve"][];
+        };
+        /**
          * Checkpoint
          * @description A saved learner.
          */
@@ -1865,6 +1963,42 @@ export interface components {
          */
         CloseReason: "judged" | "cant_tell" | "superseded" | "timed_out" | "withdrawn" | "interrupted";
         /**
+         * ComparedCurve
+         * @description The mean of several experiments at common points, or one experiment; sem: the standard error of that mean.
+         */
+        ComparedCurve: {
+            /** Label */
+            label: string;
+            /** Experiments */
+            experiments: number[];
+            /** X */
+            x: number[];
+            /** Mean */
+            mean: number[];
+            /** Sem */
+            sem: (number | null)[];
+        };
+        /**
+         * Comparison
+         * @description Curves of several experiments in one picture. missing: experiments that have none of this yet.
+         */
+        Comparison: {
+            /**
+             * Measure
+             * @enum {string}
+             */
+            measure: "successes" | "success_rate" | "violation_ratio" | "good_share" | "critic_loss" | "estimate_error";
+            /**
+             * Axis
+             * @enum {string}
+             */
+            axis: "feedback" | "low_level_steps" | "proposals" | "decisions";
+            /** Curves */
+            curves: components["schemas"]["ComparedCurve"][];
+            /** Missing */
+            missing: number[];
+        };
+        /**
          * Counters
          * @description What happened so far in an experiment.
          */
@@ -1941,6 +2075,37 @@ export interface components {
              * @default 0
              */
             auto_approved: number;
+        };
+        /**
+         * Curve
+         * @description One line. y is null where nothing was measured; low and high are the ends of a band, where there is one.
+         */
+        Curve: {
+            /** Name */
+            name: string;
+            /** X */
+            x: number[];
+            /** Y */
+            y: (number | null)[];
+            /** Low */
+            low: (number | null)[] | null;
+            /** High */
+            high: (number | null)[] | null;
+        };
+        /**
+         * Curves
+         * @description Everything that changed in an experiment, oldest first in each curve.
+         */
+        Curves: {
+            /** Experiment Id */
+            experiment_id: number;
+            /**
+             * Feedback
+             * @description labels behind them
+             */
+            feedback: number;
+            /** Charts */
+            charts: components["schemas"]["Chart"][];
         };
         /**
          * Estimate
@@ -2248,6 +2413,11 @@ export interface components {
              *     }
              */
             together: components["schemas"]["Together"];
+            /**
+             * Tags
+             * @default []
+             */
+            tags: string[];
             counters: components["schemas"]["Counters"];
             /**
              * Created At
@@ -2382,6 +2552,12 @@ export interface components {
              *     }
              */
             together: components["schemas"]["Together"];
+            /**
+             * Tags
+             * @description words to find it by; any, without a comma, up to 40 characters each
+             * @default []
+             */
+            tags: string[];
         };
         /**
          * ExperimentPage
@@ -2409,6 +2585,11 @@ export interface components {
             gold_rate?: number | null;
             practice_required?: components["schemas"]["PracticeRequired"] | null;
             together?: components["schemas"]["TogetherUpdate"] | null;
+            /**
+             * Tags
+             * @description all of them: one that is left out is taken off
+             */
+            tags?: string[] | null;
         };
         /**
          * Feedback
@@ -2925,6 +3106,65 @@ export interface components {
                 number,
                 number
             ][];
+        };
+        /**
+         * PaperCurve
+         * @description One line of the paper; trial: which of single runs, null where it is the mean of all.
+         */
+        PaperCurve: {
+            /** Algorithm */
+            algorithm: string;
+            /** Title */
+            title: string;
+            /** Trial */
+            trial: number | null;
+            /** X */
+            x: number[];
+            /** Y */
+            y: number[];
+        };
+        /**
+         * PaperFigure
+         * @description What one of the paper's figures shows of a task, read off by eye; note: what it was measured on.
+         */
+        PaperFigure: {
+            /** Scenario */
+            scenario: string;
+            /** Title */
+            title: string;
+            /** Task */
+            task: string;
+            /**
+             * Axis
+             * @enum {string}
+             */
+            axis: "feedback" | "low_level_steps" | "proposals" | "decisions";
+            /**
+             * Measure
+             * @enum {string}
+             */
+            measure: "success_rate" | "successes";
+            /** Note */
+            note: string;
+            /** Curves */
+            curves: components["schemas"]["PaperCurve"][];
+            /**
+             * Violation Ratios
+             * @description of the paper's safety table, by algorithm
+             */
+            violation_ratios: {
+                [key: string]: number;
+            };
+        };
+        /**
+         * PaperFigures
+         * @description The paper's results as numbers. source: where they are from, and how exact they are.
+         */
+        PaperFigures: {
+            /** Source */
+            source: string;
+            /** Figures */
+            figures: components["schemas"]["PaperFigure"][];
         };
         /**
          * Parameter
@@ -3877,6 +4117,16 @@ export interface components {
             problem: string | null;
         };
         /**
+         * TagInfo
+         * @description A tag in use. experiments: how many carry it.
+         */
+        TagInfo: {
+            /** Tag */
+            tag: string;
+            /** Experiments */
+            experiments: number;
+        };
+        /**
          * TaskInfo
          * @description A task of the catalogue.
          */
@@ -4658,7 +4908,21 @@ export interface operations {
     list_experiments: {
         parameters: {
             query?: {
-                /** @description `next_cursor` of the page before; none: first page */
+                /** @description of this one only */
+                task?: string | null;
+                /** @description of this one only */
+                adapter?: string | null;
+                /** @description of this one only */
+                algorithm?: string | null;
+                /** @description where it is */
+                lifecycle?: components["schemas"]["Lifecycle"] | "halted" | null;
+                /** @description carries every one of these */
+                tag?: string[];
+                /** @description part of the name or of a tag */
+                text?: string | null;
+                sort?: "created" | "updated" | "name" | "feedback" | "good_share" | "successes" | "violations";
+                order?: "asc" | "desc";
+                /** @description `next_cursor` of the page before */
                 cursor?: string | null;
                 /** @description most items of a page */
                 limit?: number;
@@ -7173,6 +7437,241 @@ export interface operations {
             };
             /** @description A field is wrong; `fields` names it */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_curves: {
+        parameters: {
+            query?: {
+                /** @description about the most points of a curve */
+                points?: number;
+            };
+            header?: never;
+            path: {
+                experiment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Curves"];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    compare_experiments: {
+        parameters: {
+            query: {
+                /** @description which, again for each one */
+                experiment: number[];
+                measure?: "successes" | "success_rate" | "violation_ratio" | "good_share" | "critic_loss" | "estimate_error";
+                /** @description experiments that agree in all of these are one curve; none: one each */
+                by?: ("task" | "algorithm" | "preset" | "adapter" | "teacher" | "tag")[];
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Comparison"];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_paper_figures: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PaperFigures"];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_tags: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TagInfo"][];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };

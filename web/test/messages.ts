@@ -44,6 +44,7 @@ export function experiment(change: Partial<Experiment> = {}): Experiment {
     auto_approval: null,
     auto_approval_suspended: null,
     gold_rate: 0,
+    tags: [],
     practice_required: null,
     together: { parallel: false, weighted_approves: false, lease_seconds: 60, vanish_seconds: 10 },
     created_at: AT,
