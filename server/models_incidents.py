@@ -8,7 +8,8 @@ from typing import Any
 from sqlalchemy import ForeignKey, Index, String, Text, UniqueConstraint
 from sqlalchemy.orm import Mapped, mapped_column, relationship
 
-from server.models import Base, TrainerRow, one_of
+from server.models import TrainerRow
+from server.models_base import Base, one_of
 
 
 class ViolationRow(Base):

@@ -8,7 +8,8 @@ from typing import Any
 from sqlalchemy import CheckConstraint, ForeignKey, Index, String, UniqueConstraint, text
 from sqlalchemy.orm import Mapped, mapped_column, relationship
 
-from server.models import Base, ProposalRow, TrainerRow
+from server.models import ProposalRow, TrainerRow
+from server.models_base import Base
 
 
 class GoldMarkRow(Base):

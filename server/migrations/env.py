@@ -4,8 +4,8 @@ from typing import Any, Literal
 
 from alembic import context
 
-from server import models_quality, models_tags  # noqa: F401 - their tables belong to the metadata too
-from server.models import Base, UtcDateTime
+from server import models, models_quality, models_tags  # noqa: F401 - their tables belong to the metadata too
+from server.models_base import Base, UtcDateTime
 
 
 def _render(kind: str, item: Any, _: Any) -> str | Literal[False]:

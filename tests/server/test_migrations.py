@@ -12,7 +12,7 @@ from alembic.runtime.migration import MigrationContext
 from sqlalchemy import Engine, create_engine, inspect
 
 from server.database import resolve
-from server.models import Base
+from server.models_base import Base
 from server.schemas import CloseReason, Lifecycle, Verdict
 from server.store import NewerDatabase, ReadOnly, Store, StoreError
 from server.store_upgrade import prepare, revisions
