@@ -9,7 +9,7 @@ from __future__ import annotations
 import base64
 import binascii
 import json
-from datetime import datetime
+from datetime import UTC, datetime
 from typing import Any
 
 from sqlalchemy import ColumnElement, Float, and_, cast, func, or_, select
@@ -102,14 +102,14 @@ def _decode(cursor: str, listing: Listing) -> tuple[Value, int]:
         value: Any
         sort, order, value, row_id = json.loads(text)
         if listing.sort == "updated":
-            value = datetime.fromisoformat(value)
-    except (binascii.Error, ValueError, TypeError) as error:
+            value = datetime.fromisoformat(value).astimezone(UTC)
+    except (binascii.Error, ValueError, TypeError, OverflowError) as error:
         raise BadCursor from error
     kinds: tuple[type, ...] = {"name": (str,), "updated": (datetime,), "good_share": (float, int)}.get(
         listing.sort, (int,)
     )
     ids = isinstance(row_id, int) and not isinstance(row_id, bool) and 0 < row_id < 2**63
     huge = isinstance(value, int) and abs(value) >= 2**63
-    if (sort, order) != (listing.sort, listing.order) or not ids or huge or not type(value) not in kinds:
+    if (sort, order) != (listing.sort, listing.order) or not ids or huge or type(value) not in kinds:
         raise BadCursor
     return value, row_id
