@@ -5,11 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Any, Literal, Protocol, runtime_checkable
 
 from pydantic import BaseModel
 
 from robot_adapters.base import Array, SkillCall, SkillSpec
+
+if TYPE_CHECKING:
+    import torch
+
+DeviceName = Literal["auto", "cpu", "cuda"]
+"""Where to train; `agent.device` says what each means."""
 
 
 class AgentError(Exception):
@@ -134,6 +140,14 @@ class Pausing(Protocol):
     """
 
     pause: Callable[[], None]
+
+
+@runtime_checkable
+class Movable(Protocol):
+    """An algorithm that can train elsewhere than on the CPU. What it proposes and saves doesn't depend on where."""
+
+    def move(self, device: torch.device) -> None:
+        """Take all further gradient steps there."""
 
 
 class AlgorithmFactory(Protocol):

@@ -32,14 +32,15 @@ class Arena:
         for name, shape in self._shapes.items():
             self._starts[name] = size
             size += -(-len(named) * shape.numel() // ALIGNMENT) * ALIGNMENT
-        self.values = torch.zeros(size)
-        self.gradients = torch.zeros(size)
+        device = self.learners[0].mask.device
+        self.values = torch.zeros(size, device=device)
+        self.gradients = torch.zeros(size, device=device)
         flat = nn.Parameter(self.values)
         flat.grad = self.gradients
         self._adam = torch.optim.Adam([flat], lr=learning_rate, fused=True)
-        zeros = {"step": torch.zeros(()), "exp_avg": torch.zeros(size), "exp_avg_sq": torch.zeros(size)}
-        self.state: dict[str, Tensor] = zeros
-        self._adam.state[flat] = zeros
+        shapes: dict[str, tuple[int, ...]] = {"step": (), "exp_avg": (size,), "exp_avg_sq": (size,)}
+        self.state = {key: torch.zeros(shape, device=device) for key, shape in shapes.items()}
+        self._adam.state[flat] = self.state
         for at, parameters in enumerate(named):
             for name, parameter in parameters.items():
                 home = self.block(name)[at]

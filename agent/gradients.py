@@ -55,6 +55,10 @@ class Lesson:
     keypoints: Tensor
     noise: Tensor
 
+    def to(self, device: torch.device) -> Lesson:
+        """The same there."""
+        return Lesson(**{name: tensor.to(device) for name, tensor in vars(self).items()})
+
 
 class Gradients:
     """Writes into an arena's gradients what autograd would find, and returns the metrics."""

@@ -8,7 +8,9 @@ Key points are (B, K, M, 3) m, robot base frame; a skill with fewer than M repea
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 import torch
@@ -44,17 +46,31 @@ class Grounding:
     relative: bool
     radius: float
 
+    def to(self, device: torch.device) -> Grounding:
+        """The same with its tensors there."""
+        parts = {field.name: getattr(self, field.name) for field in fields(self)}
+        moved: dict[str, Any] = {name: part.to(device) for name, part in parts.items() if isinstance(part, Tensor)}
+        there = replace(self, **moved)
+        # found out here once: asked there, each would wait for the card
+        there.__dict__.update(pushing=self.pushing, features=self.features)
+        return there
+
     @property
     def options(self) -> int:
         """O."""
         return len(self.option_skill)
 
-    @property
+    @cached_property
+    def pushing(self) -> list[int]:
+        """The options whose skill pushes. A skill has at least one option."""
+        return torch.nonzero(self.delta[self.option_skill] >= 0)[:, 0].tolist()
+
+    @cached_property
     def features(self) -> int:
         """Entries of `read`."""
         if not self.relative or not bool((self.present & self.position[:, None]).any()):
             return 0
-        return self.present.shape[1] * 3 * len(SCALES) + (2 if bool((self.delta >= 0).any()) else 0)
+        return self.present.shape[1] * 3 * len(SCALES) + (2 if self.pushing else 0)
 
     def decode(self, local: Tensor, keypoints: Tensor) -> Tensor:
         """What the actors put out, (O, B, P) in [-1, 1] -> parameters scaled as the skill's bounds are.
@@ -77,7 +93,7 @@ class Grounding:
         matches = self.option_skill == skills[:, None]
         if not bool((self.option_keypoint >= 0).any()):
             return matches.int().argmax(dim=1), parameters
-        rows = torch.arange(len(skills))
+        rows = torch.arange(len(skills), device=skills.device)
         metres = self.centre[skills, :3] + self.half[skills, :3] * parameters[:, :3]
         offsets = metres[:, None] - keypoints[rows, skills]
         distance = offsets.norm(dim=-1).masked_fill(~self.present[skills], torch.inf)
@@ -89,18 +105,18 @@ class Grounding:
 
     def read(self, skills: Tensor, parameters: Tensor, keypoints: Tensor) -> Tensor:
         """Calls (B,), (B, P) scaled, with their key points -> (B, features): offsets, and where a push ends."""
-        rows = torch.arange(len(skills))
+        rows = torch.arange(len(skills), device=skills.device)
         metres = self.centre[skills, :3] + self.half[skills, :3] * parameters[:, :3]
         offsets = metres[:, None] - keypoints[rows, skills]
         used = (self.present[skills] & self.position[skills, None]).unsqueeze(-1)
         parts = [torch.where(used, torch.tanh(offsets / scale), 0.0).flatten(1) for scale in SCALES]
-        if bool((self.delta >= 0).any()):
+        if self.pushing:
             parts.append(self.read_end(skills, parameters))
         return torch.cat(parts, dim=-1)
 
     def read_end(self, skills: Tensor, parameters: Tensor) -> Tensor:
         """(B, 2) x and y where a push ends, scaled as its start is: what matters to whatever it pushes against."""
-        rows, column = torch.arange(len(skills)), self.delta[skills]
+        rows, column = torch.arange(len(skills), device=skills.device), self.delta[skills]
         pushes = column >= 0
         at = column.clamp(min=0)
         delta = self.centre[skills, at] + self.half[skills, at] * parameters[rows, at]
@@ -114,7 +130,7 @@ class Grounding:
 
         here: (K, M, 3) m. Where the same end is out of a push's bounds, the nearest.
         """
-        rows = torch.arange(len(skills))
+        rows = torch.arange(len(skills), device=skills.device)
         delta, axis = self.delta[skills], (parameters[rows, self.direction[skills]] >= 0).long()
         end = self.centre[skills, axis] + self.half[skills, axis] * self.read_end(skills, parameters)[rows, axis]
         start = here[skills, self.option_keypoint[options], axis] + self.radius * local[rows, axis]

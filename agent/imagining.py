@@ -33,11 +33,10 @@ class Imagining:
         self._share = torch.where(grounded, 1.0 / self._half, 0.0)
         # an offset that isn't read is multiplied by 0, and so is its gradient
         read = (grounding.present & grounding.position[:, None])[skills].float()
-        self._inverse = read[:, None, :, None, None] / torch.tensor(SCALES)[:, None, None, None]
-        pushes = grounding.delta[skills] >= 0
-        self._ends = self._reads and bool((grounding.delta >= 0).any())
-        self._pushes = torch.nonzero(pushes)[:, 0]
-        pushing = skills[pushes]
+        self._inverse = read[:, None, :, None, None] / torch.tensor(SCALES, device=skills.device)[:, None, None, None]
+        self._ends = self._reads and bool(grounding.pushing)
+        self._pushes = torch.tensor(grounding.pushing, dtype=torch.int64, device=skills.device)
+        pushing = skills[self._pushes]
         self._delta, self._direction = grounding.delta[pushing], grounding.direction[pushing]
         self._delta_centre, self._delta_half = (
             of[pushing, self._delta, None] for of in (grounding.centre, grounding.half)

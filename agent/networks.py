@@ -7,9 +7,11 @@ points (`agent.grounding`). Without one, options and skills are the same, as in 
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import torch
@@ -110,6 +112,14 @@ class Networks(nn.Module):
         self.one_hot: Tensor
         self.register_buffer("mask", layout.mask()[self.option_skill], persistent=False)
         self.register_buffer("one_hot", torch.eye(K), persistent=False)
+
+    def twin(self, device: torch.device) -> Networks:
+        """Networks there that begin with the same weights. Constants may be shared."""
+        memo: dict[int, Any] = {id(part): part.to(device) for part in (self.mask, self.one_hot, self.option_skill)}
+        if self.grounding is not None:
+            memo[id(self.grounding)] = self.grounding.to(device)
+        memo |= {id(p): nn.Parameter(p.detach().to(device, copy=True)) for p in self.parameters()}
+        return copy.deepcopy(self, memo)
 
     def skill_log_probabilities(self, states: Tensor) -> Tensor:
         """(B, n) -> (B, O) log pi_phi(a|s)."""

@@ -175,7 +175,7 @@ class Seed:
         """
         if not self.ready():
             return None
-        if len(self._trainer.arena.learners) > 1:  # trained together with others until now
+        if len(self._trainer.learners) > 1:  # trained together with others until now
             self.settle(Trainer.joined([self.seat]), 0)
         (metrics,) = self._trainer.step([self.draw()], self.pause)
         self.stepped()
@@ -223,6 +223,16 @@ class Seed:
         """Be trained by another trainer, which has taken the networks in (`Trainer.joined`)."""
         self._trainer, self._place = trainer, place
 
+    def move(self, device: torch.device) -> None:
+        """Implements `agent.algorithm.Movable`. Proposals are made on the CPU, and dice are thrown there.
+
+        Raises:
+            RuntimeError: PyTorch can't use that device. Nothing has changed.
+        """
+        moved = Trainer([self._networks], self._trainer.objective, None if device.type == "cpu" else device)
+        moved.recall(0, self._trainer.arena.moments(self._place))
+        self.settle(moved, 0)
+
     def save(self, path: Path) -> None:
         """Write networks, optimiser, temperatures, random states and counters atomically. The replay isn't written."""
         arrays: dict[str, torch.Tensor] = {
@@ -233,7 +243,7 @@ class Seed:
             arrays[f"network.{name}"] = tensor.detach()
         for name, moments in self._trainer.arena.moments(self._place).items():
             for key, value in moments.items():
-                arrays[f"adam.{key}.{name}"] = value
+                arrays[f"adam.{key}.{name}"] = value.cpu()
         state = {
             "drawing": self._drawing.bit_generator.state,
             "policy_version": self.policy_version,
@@ -281,13 +291,11 @@ class Seed:
                 remedy="use an older checkpoint, or rebuild the learner from the labels",
             )
 
-        self.settle(Trainer([self._networks], self._trainer.objective), 0)
         with torch.no_grad():
             for name, parameter in parameters.items():
                 parameter.copy_(weights[name])
-        for name, kept in self._trainer.arena.moments(0).items():
-            for key, value in moments.get(name, {}).items():
-                kept[key].copy_(value)
+        self.settle(Trainer([self._networks], self._trainer.objective, self._trainer.device), 0)
+        self._trainer.recall(0, moments)
         self._drawing, self._proposing, self._training = drawing, proposing, training
         self.policy_version, self.last_label_id = counters["policy_version"], counters["last_label_id"]
         self._labels_seen, self._owed, self._spare = counters["labels_seen"], counters["owed"], counters["spare"]

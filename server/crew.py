@@ -221,6 +221,7 @@ class Crew:
             seed=experiment.seed,
             lockstep=experiment.lockstep,
             threads=self._settings.learner_threads,
+            device=self._settings.learner_device,
         )
         await self._load_newest(learner)
         labels = await self._store.labels(experiment.id)

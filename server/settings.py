@@ -63,6 +63,13 @@ class Settings(BaseSettings):
         float, Field(gt=0, description="seconds after which a learner worker that doesn't answer counts as hung")
     ] = 120.0
     learner_threads: Annotated[int, Field(ge=1, le=64, description="CPU threads of one learner worker")] = 1
+    learner_device: Annotated[
+        Literal["auto", "cpu", "cuda"],
+        Field(
+            description="where learners, SEED's in a study too, take their gradient steps: cpu, cuda, or auto: CUDA "
+            "where PyTorch can use it and the algorithm can be moved, else the CPU"
+        ),
+    ] = "auto"
     checkpoint_every: Annotated[int, Field(ge=1, description="feedback between two checkpoints of the learner")] = 50
 
     @field_validator("allowed_hosts", mode="before")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from agent.algorithm import Problem
+from agent.algorithm import DeviceName, Problem
 from agent.baseline_config import BASELINES, BaselineSettings, MapleFactory, SacFactory, TamerFactory
 from agent.config import SEED, SeedSettings
 from agent.study.courses import Course, FeedbackCourse, RewardCourse, Stage
@@ -66,6 +66,8 @@ class Builders:
     """The same commanded step by step."""
     without_physics: Callable[[str], Env]
     """The same where commands are carried out exactly: quicker, and fresh policies come across the reward."""
+    device: DeviceName = "cpu"
+    """Where SEED trains; the baselines train on the CPU."""
 
 
 def course(run: Run, builders: Builders, folder: Path, oracle: Path | None) -> Course:
@@ -92,9 +94,13 @@ def problem_of(task: Task) -> Problem:
 
 
 def _feedback(run: Run, builders: Builders, folder: Path, oracle: Path | None) -> Course:  # noqa: ARG001
+    from agent.device import place  # noqa: PLC0415  it imports torch
+
     stage = _stage(run, builders, folder)
     problem = problem_of(stage.task)
-    return FeedbackCourse(stage, SEED(problem, SeedSettings(**run.contestant.settings), run.seed), problem)
+    learner = SEED(problem, SeedSettings(**run.contestant.settings), run.seed)
+    place(learner, builders.device)
+    return FeedbackCourse(stage, learner, problem)
 
 
 def _reward(run: Run, builders: Builders, folder: Path, oracle: Path | None) -> Course:  # noqa: ARG001

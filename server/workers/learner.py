@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from agent.affordance import near
-from agent.algorithm import AgentError, Algorithm, AlgorithmFactory, Label, Pausing, Problem
+from agent.algorithm import AgentError, Algorithm, AlgorithmFactory, DeviceName, Label, Pausing, Problem
 from robot_adapters import registry
 from robot_adapters.base import InvalidCall, SkillCall, check_call
 from robot_adapters.tasks.base import Task, entry_names, position_fields, state_bounds
@@ -78,16 +78,28 @@ class Learner:
         return self._algorithm is not None and self._fault is None and not self._starved
 
     def configure(
-        self, *, task: str, algorithm: str, settings: dict[str, Any], seed: int, lockstep: bool, threads: int
+        self,
+        *,
+        task: str,
+        algorithm: str,
+        settings: dict[str, Any],
+        seed: int,
+        lockstep: bool,
+        threads: int,
+        device: DeviceName,
     ) -> dict[str, Any]:
         """Build the algorithm. `settings` are complete: the preset has been merged in."""
         import torch  # noqa: PLC0415 - here, so that this module can be imported without it
+
+        from agent.device import place  # noqa: PLC0415 - as above
 
         torch.set_num_threads(threads)
         factory = _factory(algorithm)
         self._task = registry.task(task)
         self._lockstep = lockstep
-        self._algorithm = factory(_problem(self._task), factory.settings.model_validate(settings), seed)
+        built = factory(_problem(self._task), factory.settings.model_validate(settings), seed)
+        place(built, device)
+        self._algorithm = built
         if isinstance(self._algorithm, Pausing) and not lockstep:
             self._algorithm.pause = self.meanwhile
         return self._status()

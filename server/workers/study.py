@@ -10,6 +10,7 @@ from robot_adapters import low_level, registry
 from robot_adapters.base import Adapter
 from robot_adapters.kinematic import KinematicSettings
 from robot_adapters.tasks.base import Task
+from server.settings import Settings
 
 WITHOUT_PHYSICS = "kinematic"
 
@@ -22,7 +23,11 @@ def builders(adapter: str) -> Builders:
     """
     registry.adapter(adapter)
     return Builders(
-        registry.task, partial(_robot, adapter), partial(_environment, adapter), partial(_environment, WITHOUT_PHYSICS)
+        registry.task,
+        partial(_robot, adapter),
+        partial(_environment, adapter),
+        partial(_environment, WITHOUT_PHYSICS),
+        Settings().learner_device,
     )
 
 

@@ -61,7 +61,7 @@ async def _latencies(preset: str, think_time: int) -> tuple[list[float], list[fl
     rng = np.random.default_rng(0)
     try:
         arguments = {"task": TASK, "algorithm": "seed", "settings": settings.model_dump(), "seed": 0}
-        await worker.call("configure", deadline=120, lockstep=False, threads=1, **arguments)
+        await worker.call("configure", deadline=120, lockstep=False, threads=1, device="cpu", **arguments)
         await worker.call("add", deadline=60, labels=_labels(task, rng))
         low, high = state_bounds(task.state_fields)
         took, used, versions = [], [], []

@@ -60,11 +60,25 @@ async def test_a_checkpoint_of_another_task_is_told_and_the_labels_rebuild_the_l
         assert "task: file has reaching, wanted stacking" in unusable.payload["detail"]
 
 
+async def test_cuda_asked_for_where_there_is_none_is_told_with_the_setting(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("CUDA_VISIBLE_DEVICES", "")
+    learner = await Worker.spawn("learner", "server.workers.learner")
+    try:
+        built = {"task": "stacking", "algorithm": "seed", "settings": SMALL, "seed": 0, "lockstep": True, "threads": 1}
+        with pytest.raises(CommandFailed, match="SEED_LEARNER_DEVICE is cuda") as error:
+            await learner.call("configure", deadline=PATIENCE, device="cuda", **built)
+        assert "auto or cpu" in error.value.remedy
+        await learner.call("configure", deadline=PATIENCE, device="auto", **built)
+    finally:
+        await learner.close()
+
+
 async def test_feedback_about_what_the_task_no_longer_has_is_told() -> None:
     """A task of one's own is edited while its experiment rests: what is stored is about the task as it was."""
     learner = await Worker.spawn("learner", "server.workers.learner")
     try:
-        built = {"task": "stacking", "algorithm": "seed", "settings": SMALL, "seed": 0, "lockstep": True, "threads": 1}
+        built = {"task": "stacking", "algorithm": "seed", "settings": SMALL, "seed": 0, "lockstep": True}
+        built |= {"threads": 1, "device": "cpu"}
         await learner.call("configure", deadline=PATIENCE, **built)
         stored = {"id": 7, "state": [0.5] * 6, "skill": "pick", "parameters": [0.5, 0.0, -0.09], "value": 1}
         for change, told in (

@@ -77,6 +77,7 @@ async def learner() -> Worker:
         seed=1,
         lockstep=False,
         threads=1,
+        device="cpu",
     )
     return worker
 
