@@ -18,7 +18,7 @@ GENERATED = {"web/src/api.ts"}
 LONGEST = 400
 VAGUE_NAMES = {"utils", "util", "helpers", "helper", "common", "misc", "manager", "managers"}
 SIMULATOR = {"mujoco", "robosuite"}
-DRIVERS = {"franka", "franky", "pylibfranka", "zmq"}
+DRIVERS = {"franka", "franky", "pylibfranka", "zmq", "pyrealsense2", "pyapriltags"}
 
 
 @cache
@@ -125,7 +125,7 @@ def test_the_server_process_loads_neither_torch_nor_a_simulator() -> None:
     assert not loaded_by("import " + ", ".join(server)) & {"torch", *SIMULATOR, *DRIVERS}
 
 
-@pytest.mark.parametrize("group", ["seed.tasks", "seed.adapters", "seed.algorithms", "seed.teachers"])
+@pytest.mark.parametrize("group", ["seed.tasks", "seed.adapters", "seed.algorithms", "seed.teachers", "seed.eyes"])
 def test_plug_ins_are_light_until_they_are_used(group: str) -> None:
     loading = f"from importlib.metadata import entry_points\nfor e in entry_points(group={group!r}): e.load()"
     assert not loaded_by(loading) & {"torch", *SIMULATOR, *DRIVERS}

@@ -21,8 +21,6 @@ APART = {"block_a": [0.50, 0.08, TABLE + 0.02], "block_b": [0.60, -0.06, TABLE +
 @pytest.fixture(scope="session", autouse=True)
 def _onlooker() -> None:
     """Make the double for cameras known, as a service does by PYTHONPATH."""
-    if not PYTHON.exists():
-        pytest.skip("no simulated Franka on this machine (scripts/simulators.sh)")
     if str(PLUGINS) not in sys.path:
         sys.path.insert(0, str(PLUGINS))
 
@@ -30,6 +28,8 @@ def _onlooker() -> None:
 @pytest.fixture(scope="module")
 def arm() -> Iterator[SimulatedFranka]:
     """A simulated arm at a table with two blocks; time waits for who drives it."""
+    if not PYTHON.exists():
+        pytest.skip("no simulated Franka on this machine (scripts/simulators.sh)")
     with SimulatedFranka(table=TABLE, blocks=BLOCKS) as simulated:
         yield simulated
 

@@ -1,0 +1,200 @@
+"""`Perception`: the eyes of the real robot, from two cameras to the scene that a task's state is made of."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from robot_adapters.base import CameraCalibration, CameraFrame, Unavailable
+from robot_adapters.franka.eyes import Hand, Sight
+from robot_adapters.franka.perception import PerceptionSettings, calibration, tagging
+from robot_adapters.franka.perception.calibration import Calibration
+from robot_adapters.franka.perception.camera import CameraLost, Picture, open_camera
+from robot_adapters.franka.perception.colours import find_by_colour
+from robot_adapters.franka.perception.locating import Found, locate
+from robot_adapters.franka.perception.moved import Reference, Standing
+from robot_adapters.franka.perception.rays import View
+from robot_adapters.franka.perception.tags import Tag, TagDetector
+from robot_adapters.franka.perception.tracking import Tracker
+from robot_adapters.franka.perception.watching import Watch
+from robot_adapters.registry import task as task_by_name
+
+ATTEMPTS = 3
+"""Pictures in which an object may be looked for before it counts as not seen: one may be blurred by a knock."""
+RECHECK = 1.0
+"""s between two looks for whether a camera's trouble is over."""
+
+
+@dataclass
+class _Eye:
+    """One camera: what it is read with, how it stands, and its picture of the last look."""
+
+    watch: Watch
+    calibration: Calibration
+    reference: Reference
+    detector: TagDetector
+    standing: Standing
+    stamp: float
+    """When the calibration's file was written."""
+    openings: int = 0
+    picture: Picture | None = None
+
+
+class Perception:
+    """Cameras with what is read off their pictures (`Eyes`). Each camera is read on a thread of its own."""
+
+    def __init__(self, task: str, settings: PerceptionSettings) -> None:
+        """Open the cameras, and see whether they stand where they were calibrated.
+
+        Raises:
+            Unavailable: a camera can't be opened, or isn't calibrated.
+            BadTags: the tag file doesn't fit the task.
+        """
+        self._settings = settings
+        self._task = task_by_name(task)
+        self._tagging = tagging.load(self._task, settings.tags)
+        self._table = self._task.table_height if settings.table_height is None else settings.table_height
+        self._where = calibration.folder(settings.calibration)
+        sources = dict(settings.cameras) or dict.fromkeys(calibration.stored(self._where), "")
+        if not sources:
+            raise Unavailable(
+                f"no camera is calibrated (nothing in {self._where})", remedy=calibration.AGAIN.format("left")
+            )
+        self._tracker = Tracker(self._task, self._tagging, lost_after=settings.lost_after)
+        self._pool = ThreadPoolExecutor(len(sources), thread_name_prefix="eye")
+        self._eyes: dict[str, _Eye] = {}
+        self._checked = 0.0
+        try:
+            for name, source in sources.items():
+                self._eyes[name] = self._eye(name, source)
+            self.recheck()
+        except BaseException:
+            self.close()
+            raise
+        self.cameras = tuple(self._eyes)
+        first = next(iter(self._eyes.values())).calibration.view.lens
+        self.image_size = (first.width, first.height)
+
+    def calibrations(self) -> Mapping[str, CameraCalibration]:
+        """See `Eyes`."""
+        return {name: eye.calibration.view.calibration() for name, eye in self._eyes.items()}
+
+    def refusal(self) -> str | None:
+        """See `Eyes`. While something is wrong, looks once a second whether it still is."""
+        if self._trouble() is not None and time.monotonic() - self._checked > RECHECK:
+            self.recheck()
+        return self._trouble()
+
+    def look(self, hand: Hand) -> Sight:
+        """See `Eyes`. What two cameras contradict each other about isn't measured; a camera in trouble hides all."""
+        found: dict[str, Found] = {}
+        wanted = set(self._tagging.objects)
+        for attempt in range(ATTEMPTS):
+            seen = self._see(after=time.time())
+            if self._trouble() is not None:
+                break
+            for name in sorted(wanted - found.keys()):
+                if (at := self._locate(name, seen)) is not None:
+                    found[name] = at
+            if found.keys() == wanted or attempt == ATTEMPTS - 1:
+                break
+        taken = [eye.picture.taken_at for eye in self._eyes.values() if eye.picture is not None]
+        sight = self._tracker.update(found, hand, min(taken, default=time.time()))
+        if (trouble := self._trouble()) is not None:
+            return Sight(sight.objects, sight.taken_at, sight.joints, sight.tilts, dict.fromkeys(wanted, trouble))
+        return sight
+
+    def frame(self, camera: str, *, still: bool) -> CameraFrame:
+        """See `Eyes`. The picture is straightened, so that a pinhole draws on it exactly."""
+        eye = self._eyes.get(camera)
+        if eye is None:
+            raise Unavailable(f"there is no camera {camera!r}", remedy="use one of: " + ", ".join(self.cameras))
+        try:
+            picture = eye.picture if still and eye.picture is not None else eye.watch.latest()
+        except CameraLost as lost:
+            raise Unavailable(str(lost), remedy=lost.remedy) from lost
+        quality = self._settings.jpeg_quality if still else min(self._settings.jpeg_quality, 70)
+        straight = _straight(picture.colour, eye.calibration.view)
+        encoded = cv2.imencode(".jpg", straight[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, quality])[1]
+        height, width = straight.shape[:2]
+        return CameraFrame(camera, encoded.tobytes(), width, height, picture.taken_at)
+
+    def recheck(self) -> None:
+        """Look whether every camera stands where it was calibrated; one that was calibrated again is read anew."""
+        self._checked = time.monotonic()
+        for name, eye in self._eyes.items():
+            stamp = (self._where / f"{name}.json").stat().st_mtime
+            if stamp != eye.stamp:
+                eye.calibration = calibration.load(name, self._where)
+                eye.reference = Reference(eye.calibration.reference, eye.calibration.fixed_tags)
+                eye.stamp = stamp
+        self._see(after=0.0)
+
+    def close(self) -> None:
+        """See `Eyes`."""
+        for eye in self._eyes.values():
+            eye.watch.close()
+        self._pool.shutdown()
+
+    def _eye(self, name: str, source: str) -> _Eye:
+        read = calibration.load(name, self._where)
+        watch = Watch(name, lambda: open_camera(source or read.source))
+        reference = Reference(read.reference, read.fixed_tags)
+        stamp = (self._where / f"{name}.json").stat().st_mtime
+        return _Eye(watch, read, reference, TagDetector(), Standing(True, None, "not looked at yet"), stamp)
+
+    def _see(self, *, after: float) -> dict[str, tuple[View, dict[int, Tag]]]:
+        """The tags in every camera's newest picture; notes how the cameras stand."""
+        waiting = {name: self._pool.submit(_read, eye, after) for name, eye in self._eyes.items()}
+        seen = {}
+        for name, reading in waiting.items():
+            tags = reading.result()
+            if tags is not None:
+                seen[name] = (self._eyes[name].calibration.view, {tag.number: tag for tag in tags})
+        return seen
+
+    def _locate(self, name: str, seen: Mapping[str, tuple[View, dict[int, Tag]]]) -> Found | None:
+        what = self._tagging.objects[name]
+        if what.tags:
+            return locate(what, seen, self._table, self._tracker.last(name))
+        pictures = [(e.calibration.view, e.picture) for e in self._eyes.values() if e.picture is not None]
+        return find_by_colour(what, pictures, self._table)
+
+    def _trouble(self) -> str | None:
+        """The first camera that can't be relied on, in words."""
+        for name, eye in self._eyes.items():
+            if (silent := eye.watch.trouble()) is not None:
+                return f"camera {name} is gone: {silent}"
+            if eye.standing.moved:
+                return f"camera {name} has moved since it was calibrated, or is covered ({eye.standing.detail})"
+        return None
+
+
+def _read(eye: _Eye, after: float) -> tuple[Tag, ...] | None:
+    """The tags in the newest picture, which is kept with how the camera stands; None where there is no picture."""
+    try:
+        picture = eye.watch.latest(after=after)
+    except CameraLost:
+        return None
+    lens = eye.calibration.view.lens
+    tags = eye.detector.find(picture.colour)
+    eye.picture = picture
+    if picture.colour.shape[:2] != (lens.height, lens.width):
+        h, w = picture.colour.shape[:2]
+        eye.standing = Standing(True, None, f"its pictures are {w} x {h}, calibrated at {lens.width} x {lens.height}")
+    else:
+        eye.standing = eye.reference.compare(picture.colour, tags)
+    return tags
+
+
+def _straight(colour: NDArray[np.uint8], view: View) -> NDArray[np.uint8]:
+    """The picture as a pinhole with the same matrix would have taken it."""
+    if not view.lens.distortion.any():
+        return colour
+    return np.asarray(cv2.undistort(colour, view.lens.matrix, view.lens.distortion), dtype=np.uint8)
