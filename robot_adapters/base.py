@@ -290,6 +290,28 @@ class TellsTelemetry(Protocol):
         """As it is now. Asked between two set-points too, so it must take well under a millisecond."""
 
 
+@runtime_checkable
+class Tended(Protocol):
+    """What a real robot's adapter has beside `Adapter`: what only an operator asks for, and a look at any time."""
+
+    def home(self, *, should_stop: StopCheck, on_step: StepHook) -> bool:
+        """Bring the robot slowly out of the way; whether it arrived there.
+
+        Raises:
+            Unavailable: it can't be used now.
+        """
+
+    def recover(self) -> None:
+        """Clear what keeps the robot from moving after it stopped itself.
+
+        Raises:
+            AdapterError: it can't be cleared, and what helps.
+        """
+
+    def refresh(self) -> None:
+        """Look at the robot, so that its telemetry is of now. Never raises for a robot that isn't well."""
+
+
 @dataclass(frozen=True)
 class AdapterInfo:
     """What an adapter tells of itself before anything moves."""

@@ -96,7 +96,7 @@ class Acting:
         decision, execution = await self._store.begin_execution(
             proposal.id,
             current_observation_id=seen.id,
-            operator_present=False,
+            operator_present=self._crew.operator_present,
             simulated=self.simulated,
             workspace_ok=self._inside(self.call_of(proposal)),
         )

@@ -17,6 +17,7 @@ from server import errors
 from server.openapi import describe
 from server.origin import Guard
 from server.routes import (
+    attendance,
     catalogue,
     experiments,
     feedback,
@@ -73,6 +74,7 @@ def create_app(settings: Settings | None = None, service: Service | None = None)
     for part in (
         catalogue,
         experiments,
+        attendance,
         proposals,
         feedback,
         incidents,

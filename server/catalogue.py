@@ -18,7 +18,7 @@ from robot_adapters.tasks.layout import LayoutSettings
 from server import auto_approval
 from server.errors import ServiceError, invalid
 from server.scene import scene_info
-from server.schemas import Aggregation, ExperimentCreate
+from server.schemas import Aggregation, ExperimentCreate, Mode
 from server.schemas_catalogue import AdapterInfo, AlgorithmInfo, Parameter, Skill, TaskInfo, TeacherInfo
 from server.schemas_problems import FieldProblem
 from server.teacher import TeacherFactory, teachers
@@ -129,6 +129,7 @@ def check(body: ExperimentCreate) -> ExperimentCreate:
     auto_approval.check(body.auto_approval, adapter=body.adapter, simulated=adapter.simulated, settings=settings)
     return body.model_copy(
         update={
+            "mode": body.mode or (Mode.EXECUTE_APPROVED if adapter.simulated else Mode.PROPOSE_ONLY),
             "settings": settings,
             "adapter_settings": _resolve("adapter_settings", adapter.settings, body.adapter_settings),
             "teacher_settings": _teacher_settings(body),

@@ -15,6 +15,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from robot_adapters.base import SkillCall
+from server.attendance import Attendance
 from server.crew_values import Idea, Saved
 from server.post import DEATH_WINDOW, QUICK, OnChange, Post
 from server.robots import OnFrame, OnTold, Robot, Stops
@@ -46,13 +47,25 @@ class Crew:
         on_frame: OnFrame | None,
         on_change: OnChange,
         on_told: OnTold,
+        attendance: Attendance | None = None,
     ) -> None:
+        """Have a place for each worker. attendance: of a real robot; None for simulated ones."""
+        self.attendance = attendance
         self._experiment = experiment
         self._store = store
         self._settings = settings
         self._stops = Stops(newest=1 if experiment.halted else 0)
         self.robots = tuple(
-            Robot(index, experiment, settings, self._stops, on_frame=on_frame, on_change=on_change, on_told=on_told)
+            Robot(
+                index,
+                experiment,
+                settings,
+                self._stops,
+                on_frame=on_frame,
+                on_change=on_change,
+                on_told=on_told,
+                attended=None if attendance is None else lambda: attendance.present,
+            )
             for index in range(experiment.num_envs)
         )
         self.learner = Post("learner", self._catch_up, on_change)
@@ -118,6 +131,11 @@ class Crew:
         """Forget earlier deaths: someone has looked at the failure and resumes."""
         for post in self._posts.values():
             post.forgive()
+
+    @property
+    def operator_present(self) -> bool:
+        """Whether somebody attends a real robot."""
+        return self.attendance is not None and self.attendance.present
 
     # --- emergency stop -----------------------------------------------------------------------------------------
 

@@ -95,6 +95,7 @@ class Hub:
                 for robot in (self._runners[experiment_id].crew.robots if experiment_id in self._runners else ())
                 if robot.telemetry is not None
             ],
+            operator=self._attending(experiment_id),
             server_time=datetime.now(UTC),
             boot_id=boot_id,
         )
@@ -185,6 +186,38 @@ class Hub:
             self._publisher.publish(experiment_id, EvaluationChanged(evaluation=evaluation, done=0))
             runner.evaluate(evaluation)
             return evaluation
+
+    async def attend(self, experiment_id: int, operator: str, seconds: float) -> None:
+        """Somebody stands at the real robot of this experiment.
+
+        Raises:
+            NotFound: no such experiment. Conflict: somebody else does, or the robot is a simulated one.
+        """
+        attendance = (await self._runner(experiment_id)).attendance
+        if attendance is None:
+            raise Conflict("a simulated robot needs nobody to attend it", remedy="just start the experiment")
+        attendance.take(operator, seconds)
+
+    async def leave(self, experiment_id: int, operator: str) -> None:
+        """They have left.
+
+        Raises:
+            NotFound: no such experiment.
+        """
+        attendance = (await self._runner(experiment_id)).attendance
+        if attendance is not None:
+            attendance.leave(operator)
+
+    async def tend(self, experiment_id: int, what: Literal["home", "recover"]) -> Experiment:
+        """Do what an operator asks of the arm itself.
+
+        Raises:
+            NotFound: no such experiment. Conflict: not now, and why. CommandFailed: the arm can't, and why.
+        """
+        async with self._verbs[experiment_id]:
+            runner = await self._runner(experiment_id)
+            await runner.tend(what)
+            return runner.experiment
 
     async def update(self, experiment_id: int, body: ExperimentUpdate) -> Experiment:
         """Change what may change live.
@@ -326,6 +359,10 @@ class Hub:
             # another caller may have been quicker
             self._runners.setdefault(experiment_id, Runner(experiment, self.store, self._settings, self._publisher))
         return self._runners[experiment_id]
+
+    def _attending(self, experiment_id: int) -> str | None:
+        runner = self._runners.get(experiment_id)
+        return None if runner is None or runner.attendance is None else runner.attendance.operator
 
     def _live(self, experiment: Experiment) -> Experiment:
         runner = self._runners.get(experiment.id)

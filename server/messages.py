@@ -52,6 +52,7 @@ class Snapshot(Event):
     executions: Annotated[list[Execution], Field(description="every running execution, oldest first")]
     undoable: Annotated[Feedback | None, Field(description="the newest feedback, while it can be undone")] = None
     robots: Annotated[list[RobotTold], Field(description="what each robot told of itself last")] = []  # noqa: RUF012
+    operator: Annotated[str | None, Field(description="who attends the real robot; null: nobody does")] = None
     server_time: datetime
     boot_id: Annotated[str, Field(description="changes when the server restarts")]
 
@@ -154,6 +155,13 @@ class IncidentKept(Event):
     kind: Literal["damage", "manual_reset", "halt"]
 
 
+class AttendanceChanged(Event):
+    """Somebody attends the real robot from now on, or nobody does any more: then it stands still."""
+
+    type: Literal["attendance_changed"] = "attendance_changed"
+    operator: Annotated[str | None, Field(description="who attends it; null: nobody")]
+
+
 class EvaluationChanged(Event):
     """An evaluation started, went on or ended."""
 
@@ -198,6 +206,7 @@ StreamEvent = Annotated[
     | MetricsAdded
     | WorkerChanged
     | RobotTold
+    | AttendanceChanged
     | IncidentKept
     | EvaluationChanged
     | Acknowledged

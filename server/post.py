@@ -132,6 +132,11 @@ class Post:
         if self._worker is not None:
             self._worker.stop(number)
 
+    def keep_alive(self) -> None:
+        """Tell whoever is there that the robot is attended."""
+        if self._worker is not None:
+            self._worker.keep_alive()
+
     def kill(self) -> None:
         """End whoever is there at once."""
         if self._worker is not None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
+import json
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -17,6 +19,9 @@ from server.schemas_telemetry import Telemetry
 from server.schemas_views import Overlay
 from server.settings import Settings
 from server.worker import Worker, WorkerDied
+
+KEEP_ALIVE = 0.1
+"""Seconds between two words to a real robot's worker that an operator attends it."""
 
 OnTold = Callable[[RobotTold], None]
 OnFrame = Callable[[FrameHeader, bytes], None]
@@ -48,13 +53,16 @@ class Robot:
         on_frame: OnFrame | None,
         on_change: OnChange,
         on_told: OnTold,
+        attended: Callable[[], bool] | None = None,
     ) -> None:
+        """Have a place for its worker. attended: whether an operator is at a real robot; None for a simulated one."""
         self.index = index
         self._experiment = experiment
         self._settings = settings
         self._stops = stops
         self._show = on_frame
         self._told = on_told
+        self._attended = attended
         self.telemetry: Telemetry | None = None
         """What it told of itself last."""
         self.post = Post(
@@ -63,7 +71,7 @@ class Robot:
             on_change,
             name="robot" if experiment.num_envs == 1 else f"robot {index + 1}",
             robot=index,
-            on_frame=None if on_frame is None else self._take_frame,
+            on_frame=self._take_frame,
         )
 
     async def reset(self, seed: int) -> Seen:
@@ -103,6 +111,16 @@ class Robot:
             with contextlib.suppress(WorkerDied):
                 await self._ask("rearm", upto=self._stops.lifted)
 
+    async def home(self) -> bool:
+        """Bring a real arm out of the way; whether it arrived."""
+        reply = await self._ask("home")
+        self._hear(reply)
+        return bool(reply["arrived"])
+
+    async def recover(self) -> None:
+        """Clear a real arm's reflex."""
+        self._hear(await self._ask("recover", QUICK))
+
     async def _build(self, worker: Worker) -> None:
         deadline, experiment = self._settings.robot_deadline, self._experiment
         if self._stops.latched:
@@ -115,6 +133,7 @@ class Robot:
             task=experiment.task,
             settings=experiment.adapter_settings,
             data_dir=str(self._settings.data_dir.resolve()),
+            attended=None if self._attended is None else self._settings.operator_silence,
         )
         told = 0
         while told < self._stops.lifted:  # also by a re-arm that came meanwhile, and didn't wait for this
@@ -123,10 +142,24 @@ class Robot:
 
     async def _ask(self, command: str, most: float = math.inf, **arguments: Any) -> dict[str, Any]:
         deadline = min(most, self._settings.robot_deadline)
-        return await self.post.worker.call(command, deadline=deadline, **arguments)
+        keeping = asyncio.create_task(self._keep_alive(), name=f"attend {self.post.name}") if self._attended else None
+        try:
+            return await self.post.worker.call(command, deadline=deadline, **arguments)
+        finally:
+            if keeping is not None:
+                keeping.cancel()
+
+    async def _keep_alive(self) -> None:
+        """Say that the robot is attended, again and again, as long as it is."""
+        while self._attended is not None:
+            if self._attended():
+                self.post.keep_alive()
+            await asyncio.sleep(KEEP_ALIVE)
 
     def _take_frame(self, header: bytes, jpeg: bytes) -> None:
-        if self._show is not None:
+        if not jpeg:
+            self._hear(json.loads(header))
+        elif self._show is not None:
             # which channel it came by says whose it is
             told = FrameHeader.model_validate_json(header)
             self.telemetry = told.telemetry or self.telemetry

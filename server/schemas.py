@@ -106,7 +106,9 @@ class ExperimentCreate(Wire):
         StrictInt, Field(ge=1, le=16, description="simulated robots at once, each in a process; they share the learner")
     ] = 1
     seed: Seed = 0
-    mode: Mode = Mode.EXECUTE_APPROVED
+    mode: Annotated[
+        Mode | None, Field(description="null: simulated robots execute what is approved, real ones propose only")
+    ] = None
     aggregation: Aggregation = Aggregation.FIRST
     feedback_timeout: Annotated[
         float | None,

@@ -59,6 +59,9 @@ class Settings(BaseSettings):
     robot_deadline: Annotated[
         float, Field(gt=0, description="seconds after which a robot worker that doesn't answer counts as hung")
     ] = 120.0
+    operator_silence: Annotated[
+        float, Field(gt=0, le=30, description="seconds without word of an attending operator until a real robot stops")
+    ] = 1.0
     learner_deadline: Annotated[
         float, Field(gt=0, description="seconds after which a learner worker that doesn't answer counts as hung")
     ] = 120.0

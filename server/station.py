@@ -188,9 +188,16 @@ class Station:
         if response is not Response.NOTHING:
             await self.end_episode("violation")
         elif done.task_success:
-            await self.end_episode("success")
+            await self._next_episode("success")
         elif self._executed >= self.acting.task.horizon:
-            await self.end_episode("horizon")
+            await self._next_episode("horizon")
+
+    async def _next_episode(self, outcome: EpisodeOutcome) -> None:
+        """End the episode. A simulator lays the next one out by itself; at a real robot somebody has to, by hand."""
+        await self.end_episode(outcome)
+        if not self.acting.simulated:
+            by_hand = getattr(self.acting.task, "reset_by_hand", "") or "put everything back to where an episode starts"
+            await self._shared.ask_operator("pause", [f"the episode ended ({outcome}): {by_hand}"])
 
     # --- around them --------------------------------------------------------------------------------------------
 

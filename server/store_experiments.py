@@ -61,6 +61,7 @@ def create(session: Session, body: schemas.ExperimentCreate, *, lockstep: bool) 
     """A new experiment, in `created`."""
     at = now()
     fields = body.model_dump(mode="json", exclude={"lockstep", "tags"})
+    fields["mode"] = fields["mode"] or schemas.Mode.EXECUTE_APPROVED
     row = ExperimentRow(**fields, lockstep=lockstep, lifecycle="created", failure=None, created_at=at, updated_at=at)
     row.tags = [TagRow(tag=tag) for tag in body.tags]
     session.add(row)

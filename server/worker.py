@@ -17,7 +17,7 @@ import sys
 from collections.abc import Callable, Coroutine
 from typing import Any
 
-from server.workers.channel import LENGTH, STOP
+from server.workers.channel import ATTENDED, LENGTH, STOP
 
 log = logging.getLogger(__name__)
 
@@ -176,6 +176,10 @@ class Worker:
         """
         with contextlib.suppress(OSError):  # a worker that is gone moves nothing
             self._stop.send(STOP.pack(number))
+
+    def keep_alive(self) -> None:
+        """Tell a real robot's worker that it is still attended; without such words for a while its motion ends."""
+        self.stop(ATTENDED)
 
     def kill(self) -> None:
         """End the process at once."""

@@ -67,6 +67,12 @@ class LiveService:
             **settings,
         }
 
+    @property
+    def pid(self) -> int:
+        """Of the server's process, which leads a session of its own."""
+        assert self._process is not None
+        return self._process.pid
+
     def start(self) -> None:
         """Start it and wait until it is ready."""
         with self._log.open("ab") as log:

@@ -137,7 +137,7 @@ class Franky:
         """See `FrankaBackend`."""
         self._join()
         with self._starting():
-            motion = self._driver.JointMotion(joints, relative_dynamics_factor=self._driving.homing_fraction / 2)
+            motion = self._driver.JointMotion(joints, relative_dynamics_factor=self._driving.homing_fraction)
             self._robot.move(motion, asynchronous=True)
             self._motion, self._homing = motion, True
 

@@ -10,11 +10,13 @@ import argparse
 import faulthandler
 import json
 import logging
+import math
 import select
 import signal
 import socket
 import struct
 import sys
+import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -22,6 +24,9 @@ from typing import Any
 LENGTH = struct.Struct(">I")
 STOP = struct.Struct(">I")
 """The number of a stop, ascending; a re-arm names the newest stop that it lifts, so neither can overtake the other."""
+
+ATTENDED = 0
+"""The number that is no stop: an operator attends the robot still."""
 
 log = logging.getLogger(__name__)
 
@@ -103,6 +108,12 @@ class StopLatch:
         self._newest = 0
         self._lifted = 0
         self._orphaned = False
+        self._attended_at = -math.inf
+
+    def forsaken(self, seconds: float) -> bool:
+        """Whether for so long nobody said that the robot is attended."""
+        self._read()
+        return time.monotonic() - self._attended_at > seconds
 
     def stopped(self) -> bool:
         """Whether motion is forbidden now."""
@@ -125,7 +136,10 @@ class StopLatch:
                 self._orphaned = True
             self._pending += data
             while len(self._pending) >= STOP.size:
-                self._newest = max(self._newest, STOP.unpack(self._pending[: STOP.size])[0])
+                number = STOP.unpack(self._pending[: STOP.size])[0]
+                if number == ATTENDED:
+                    self._attended_at = time.monotonic()
+                self._newest = max(self._newest, number)
                 self._pending = self._pending[STOP.size :]
 
 

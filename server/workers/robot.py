@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from robot_adapters import registry
-from robot_adapters.base import Adapter, AdapterError, EndReason, Observation, SkillCall, TellsTelemetry
+from robot_adapters.base import Adapter, AdapterError, EndReason, Observation, SkillCall, TellsTelemetry, Tended
 from server.images import Images
 from server.workers.channel import FrameSender, Pipes, Refusal, StopLatch, answer, open_pipes
 
@@ -28,6 +28,9 @@ FRAME_INTERVAL = 0.05
 
 TELEMETRY_EVERY = 4
 """Pictures from one that carries the robot's telemetry to the next: five a second."""
+
+REFRESH = 0.2
+"""Seconds between two looks at a robot that nothing is asked of."""
 
 
 class Latched(Refusal):
@@ -44,6 +47,9 @@ class Robot:
         self._images: Images
         self._index = 0
         self._executed = 0
+        self._attended: float | None = None
+        self._told: dict[str, Any] | None = None
+        self._told_at = 0.0
 
     @property
     def adapter(self) -> Adapter:
@@ -53,12 +59,21 @@ class Robot:
         return self._adapter
 
     def build(
-        self, *, adapter: str, task: str, settings: dict[str, Any], data_dir: str, robot: int = 0
+        self,
+        *,
+        adapter: str,
+        task: str,
+        settings: dict[str, Any],
+        data_dir: str,
+        robot: int = 0,
+        attended: float | None = None,
     ) -> dict[str, Any]:
         """Build the adapter; the slow part of a start, because simulators are imported here.
 
-        robot: which one of the experiment's this is, from 0.
+        robot: which one of the experiment's this is, from 0. attended: seconds without word of an operator after which
+        a real robot's motion ends; None for a simulated one.
         """
+        self._attended = attended
         self._index = robot
         factory = registry.adapter(adapter)
         self._images = Images(Path(data_dir))
@@ -113,7 +128,7 @@ class Robot:
         self._executed = proposal_id
         pictures = _Video(self.adapter, self._frames if video else None, execution_id)
         try:
-            result = self.adapter.execute(call, should_stop=self._latch.stopped, on_step=pictures.step)
+            result = self.adapter.execute(call, should_stop=self._must_stop, on_step=pictures.step)
         except AdapterError:
             raise
         except Exception as error:
@@ -133,6 +148,32 @@ class Robot:
             "telemetry": telemetry_of(self.adapter),
         }
 
+    def home(self) -> dict[str, Any]:
+        """Bring a real arm out of the way: the one motion that an operator asks for directly."""
+        adapter = self._tended()
+        self._must_be_armed()
+        arrived = adapter.home(should_stop=self._must_stop, on_step=self.refresh)
+        return {"arrived": arrived, "telemetry": telemetry_of(self.adapter)}
+
+    def recover(self) -> dict[str, Any]:
+        """Clear a real arm's reflex. Nothing moves."""
+        self._tended().recover()
+        return {"telemetry": telemetry_of(self.adapter)}
+
+    def refresh(self) -> None:
+        """Tell how a real robot is while nothing is asked of it: at once where that has changed."""
+        if not isinstance(self._adapter, Tended):
+            return
+        now = time.monotonic()
+        if now - self._told_at < REFRESH:
+            return
+        self._adapter.refresh()
+        told = telemetry_of(self._adapter)
+        changed = told is not None and (self._told is None or told["mode"] != self._told["mode"])
+        if changed or now - self._told_at > 1.0:
+            self._told, self._told_at = told, now
+            self._frames.send({"telemetry": told}, b"")
+
     def rearm(self, *, upto: int) -> dict[str, Any]:
         """Lift the stops up to number `upto`."""
         self._latch.rearm(upto)
@@ -142,6 +183,15 @@ class Robot:
         """Release the adapter."""
         if self._adapter is not None:
             self._adapter.close()
+
+    def _must_stop(self) -> bool:
+        """Whether a motion must end: by a stop, or because nobody attends a real robot any more."""
+        return self._latch.stopped() or (self._attended is not None and self._latch.forsaken(self._attended))
+
+    def _tended(self) -> Tended:
+        if not isinstance(self.adapter, Tended):
+            raise Refusal("this robot can't be asked for that", remedy="only a real arm has a home and recovers")
+        return self.adapter
 
     def _must_be_armed(self) -> None:
         if self._latch.stopped():
@@ -204,13 +254,20 @@ def telemetry_of(adapter: Adapter) -> dict[str, Any] | None:
 def serve(pipes: Pipes) -> None:
     """Answer commands until the server is gone."""
     robot = Robot(StopLatch(pipes.stop), FrameSender(pipes.frames))
-    names = ("build", "reset", "observe", "overlay", "execute", "rearm")
+    names = ("build", "reset", "observe", "overlay", "execute", "home", "recover", "rearm")
     handlers = {name: getattr(robot, name) for name in names}
     with contextlib.suppress(BrokenPipeError, ConnectionResetError):
-        while (message := pipes.commands.receive()) is not None:
+        while (message := _next(pipes, robot)) is not None:
             request: Mapping[str, Any] = json.loads(message)
             pipes.commands.send(json.dumps(answer(request, handlers)).encode())
     robot.close()
+
+
+def _next(pipes: Pipes, robot: Robot) -> bytes | None:
+    """The next command; a real robot is looked at until it comes."""
+    while not pipes.commands.poll(REFRESH):
+        robot.refresh()
+    return pipes.commands.receive()
 
 
 def main() -> None:

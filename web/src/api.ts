@@ -389,6 +389,70 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/experiments/{experiment_id}/attendance": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Attend
+         * @description Say that you stand at the robot and watch it. Say it again before the time is over: else whatever moves stops.
+         */
+        put: operations["attend"];
+        post?: never;
+        /**
+         * Leave
+         * @description Leave the robot: what moves stops, and nothing moves until somebody attends it again.
+         */
+        delete: operations["leave"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/experiments/{experiment_id}/recover": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Recover
+         * @description Clear a collision reflex, once an operator has looked. After a user stop only releasing the button helps.
+         */
+        post: operations["recover"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/experiments/{experiment_id}/home": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Home
+         * @description Bring the arm slowly to where it is out of the way. It moves at once, by the operator's word and no proposal.
+         */
+        post: operations["home"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/experiments/{experiment_id}/proposals": {
         parameters: {
             query?: never;
@@ -1469,6 +1533,26 @@ export interface webhooks {
         patch?: never;
         trace?: never;
     };
+    "stream-event/attendance_changed": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Event attendance_changed
+         * @description Somebody attends the real robot from now on, or nobody does any more: then it stands still.
+         */
+        post: operations["event_attendance_changed"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "stream-event/incident_kept": {
         parameters: {
             query?: never;
@@ -1662,6 +1746,45 @@ export interface components {
             settings_schema: {
                 [key: string]: unknown;
             };
+        };
+        /**
+         * AttendanceChanged
+         * @description Somebody attends the real robot from now on, or nobody does any more: then it stands still.
+         */
+        AttendanceChanged: {
+            /**
+             * Seq
+             * @description the event's number in the experiment's stream, from 1 since the service started (`boot_id`); null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear what was missed
+             */
+            seq: number | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "attendance_changed";
+            /**
+             * Operator
+             * @description who attends it; null: nobody
+             */
+            operator: string | null;
+        };
+        /**
+         * Attending
+         * @description An operator stands at the robot and watches it, for so long unless it is said again.
+         */
+        Attending: {
+            /**
+             * Operator
+             * @description who attends the robot
+             * @example anna
+             */
+            operator: string;
+            /**
+             * Seconds
+             * @description until it has to be said again
+             * @default 5
+             */
+            seconds: number;
         };
         /**
          * AutoApproval
@@ -2507,8 +2630,8 @@ export interface components {
              * @default 0
              */
             seed: number;
-            /** @default execute_approved */
-            mode: components["schemas"]["Mode"];
+            /** @description null: simulated robots execute what is approved, real ones propose only */
+            mode?: components["schemas"]["Mode"] | null;
             /** @default first */
             aggregation: components["schemas"]["Aggregation"];
             /**
@@ -3883,6 +4006,11 @@ export interface components {
              * @default []
              */
             robots: components["schemas"]["RobotTold"][];
+            /**
+             * Operator
+             * @description who attends the real robot; null: nobody does
+             */
+            operator: string | null;
             /**
              * Server Time
              * Format: date-time
@@ -5911,6 +6039,315 @@ export interface operations {
             };
             /** @description The body is too large */
             413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    attend: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                experiment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Attending"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Attending"];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The state of things doesn't allow it; `current` and `allowed` say what does */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    leave: {
+        parameters: {
+            query: {
+                /** @description who attends the robot */
+                operator: string;
+            };
+            header?: never;
+            path: {
+                experiment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    recover: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                experiment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Experiment"];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The state of things doesn't allow it; `current` and `allowed` say what does */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    home: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                experiment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Experiment"];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The state of things doesn't allow it; `current` and `allowed` say what does */
+            409: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -8860,7 +9297,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["Snapshot"] | components["schemas"]["Resumed"] | components["schemas"]["ExperimentChanged"] | components["schemas"]["ProposalOpened"] | components["schemas"]["ProposalClosed"] | components["schemas"]["FeedbackStored"] | components["schemas"]["FeedbackUndone"] | components["schemas"]["FeedbackRelabelled"] | components["schemas"]["ExecutionStarted"] | components["schemas"]["ExecutionEnded"] | components["schemas"]["MetricsAdded"] | components["schemas"]["WorkerChanged"] | components["schemas"]["RobotTold"] | components["schemas"]["IncidentKept"] | components["schemas"]["EvaluationChanged"] | components["schemas"]["Acknowledged"] | components["schemas"]["Refused"] | components["schemas"]["Pong"];
+                "application/json": components["schemas"]["Snapshot"] | components["schemas"]["Resumed"] | components["schemas"]["ExperimentChanged"] | components["schemas"]["ProposalOpened"] | components["schemas"]["ProposalClosed"] | components["schemas"]["FeedbackStored"] | components["schemas"]["FeedbackUndone"] | components["schemas"]["FeedbackRelabelled"] | components["schemas"]["ExecutionStarted"] | components["schemas"]["ExecutionEnded"] | components["schemas"]["MetricsAdded"] | components["schemas"]["WorkerChanged"] | components["schemas"]["RobotTold"] | components["schemas"]["AttendanceChanged"] | components["schemas"]["IncidentKept"] | components["schemas"]["EvaluationChanged"] | components["schemas"]["Acknowledged"] | components["schemas"]["Refused"] | components["schemas"]["Pong"];
             };
         };
         responses: {
@@ -9191,6 +9628,28 @@ export interface operations {
         requestBody: {
             content: {
                 "application/json": components["schemas"]["RobotTold"];
+            };
+        };
+        responses: {
+            /** @description Sent over the WebSocket; there is no answer to it */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    event_attendance_changed: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["AttendanceChanged"];
             };
         };
         responses: {

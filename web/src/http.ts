@@ -126,6 +126,16 @@ export const createExperiment = (body: ExperimentCreate) => request<Experiment>(
 
 export const act = (id: number, verb: Verb) => request<Experiment>("POST", `/experiments/${id}/${verb}`);
 
+/** Somebody is at the real robot, for so many seconds unless it is said again. */
+export const attend = (id: number, operator: string, seconds: number) =>
+  request<unknown>("PUT", `/experiments/${id}/attendance`, { operator, seconds });
+
+export const leave = (id: number, operator: string) =>
+  request<null>("DELETE", `/experiments/${id}/attendance?operator=${encodeURIComponent(operator)}`);
+
+export const tend = (id: number, what: "home" | "recover") =>
+  request<Experiment>("POST", `/experiments/${id}/${what}`);
+
 export const setMode = (id: number, mode: Mode) =>
   request<Experiment>("PATCH", `/experiments/${id}`, { mode });
 

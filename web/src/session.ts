@@ -121,6 +121,10 @@ export class Session {
     await this.guard(http.act(this.id, verb));
   }
 
+  async tend(what: "home" | "recover"): Promise<void> {
+    await this.guard(http.tend(this.id, what));
+  }
+
   async setMode(mode: "propose_only" | "execute_approved"): Promise<void> {
     await this.guard(http.setMode(this.id, mode));
   }
@@ -206,6 +210,8 @@ export class Session {
 
   private onEvent = (event: StreamEvent): void => {
     if (event.type === "robot_told") this.telling.tell(event.robot, event.telemetry);
+    if (event.type === "attendance_changed" || event.type === "snapshot")
+      this.telling.attended(event.operator ?? null);
     if (event.type === "snapshot")
       for (const { robot, telemetry } of event.robots) this.telling.tell(robot, telemetry);
     if (event.type === "acknowledged") this.outbox.remove(event.request_id);

@@ -203,6 +203,7 @@ function onEvent(state: TrainerState, event: StreamEvent): TrainerState {
     case "incident_kept":
       return { ...state, newestIncident: event.incident_id };
     case "robot_told": // it is the telling's
+    case "attendance_changed":
     case "resumed":
     case "pong":
       return state;

@@ -57,6 +57,7 @@ export type StreamEvent = Numbered<
   | Schemas["MetricsAdded"]
   | Schemas["WorkerChanged"]
   | Schemas["RobotTold"]
+  | Schemas["AttendanceChanged"]
   | Schemas["IncidentKept"]
   | Schemas["EvaluationChanged"]
   | Schemas["Acknowledged"]

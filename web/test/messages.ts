@@ -155,6 +155,7 @@ export function snapshot(
     executions: change.execution ? [change.execution] : [],
     undoable: null,
     robots: [],
+    operator: null,
     server_time: AT,
     boot_id: "boot-1",
     ...change,

@@ -42,7 +42,7 @@ export interface JudgeBarProps {
 export function typing(target: EventTarget | null): boolean {
   return (
     target instanceof HTMLElement &&
-    target.matches("input:not([type=radio]), select, textarea, [contenteditable]")
+    target.matches("input:not([type=radio], [type=checkbox]), select, textarea, [contenteditable]")
   );
 }
 

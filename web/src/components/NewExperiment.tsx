@@ -141,7 +141,10 @@ function NewForm({
         value={draft.adapter}
         options={names(adapters)}
         error={error("adapter")}
-        onChange={(adapter) => set({ adapter })}
+        onChange={(adapter) => {
+          const real = adapters.find(({ name }) => name === adapter)?.simulated === false;
+          set({ adapter, mode: real ? "propose_only" : "execute_approved" });
+        }}
       />
       <Choice
         label={t("create.algorithm")}

@@ -5,6 +5,7 @@ import { t, taskWords } from "../i18n";
 import type { Session } from "../session";
 import type { TrainerState } from "../state";
 import type { Experiment, TaskInfo } from "../wire";
+import { AtTheRobot } from "./AtTheRobot";
 import { Dialog } from "./Dialog";
 import { Incidents } from "./Incidents";
 import { ReadOuts } from "./ReadOuts";
@@ -81,6 +82,7 @@ export function OperatorPanel({ state, experiment, session, task, simulated }: O
           {activity(state, true).text}
         </span>
       </summary>
+      {!simulated && <AtTheRobot session={session} experiment={experiment} />}
       <ReadOuts telling={session.telling} robot={state.shown} />
       <button
         type="button"

@@ -1,0 +1,61 @@
+"""Who stands at a real robot and watches it: a lease that is taken anew every few seconds, or is over."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable
+
+from server.store import Conflict
+
+ANYBODY = "nobody attends the robot"
+
+
+class Attendance:
+    """One experiment's. Used from one event loop."""
+
+    def __init__(self, told: Callable[[str | None], None], *, clock: Callable[[], float] = time.monotonic) -> None:
+        """Begin with nobody. told: is called with the name of whoever attends from now on, None for nobody."""
+        self._told = told
+        self._clock = clock
+        self._name: str | None = None
+        self._until = 0.0
+        self._lapse: asyncio.TimerHandle | None = None
+
+    @property
+    def operator(self) -> str | None:
+        """Who attends now."""
+        return self._name if self._name is not None and self._clock() < self._until else None
+
+    @property
+    def present(self) -> bool:
+        """Whether anybody does."""
+        return self.operator is not None
+
+    def take(self, name: str, seconds: float) -> None:
+        """`name` attends for so long from now.
+
+        Raises:
+            Conflict: somebody else does.
+        """
+        holder = self.operator
+        if holder is not None and holder != name:
+            raise Conflict(f"{holder} attends the robot", remedy=f"wait until {holder} has left, or ask them to")
+        self._name, self._until = name, self._clock() + seconds
+        if self._lapse is not None:
+            self._lapse.cancel()
+        self._lapse = asyncio.get_running_loop().call_later(seconds + 0.01, self._look)
+        if holder != name:
+            self._told(name)
+
+    def leave(self, name: str) -> None:
+        """`name` attends no longer; nothing happens where somebody else does."""
+        if self._name == name:
+            self._until = 0.0
+            self._look()
+
+    def _look(self) -> None:
+        """Tell that it is over, once."""
+        if self._name is not None and not self.present:
+            self._name = None
+            self._told(None)

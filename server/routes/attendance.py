@@ -1,0 +1,42 @@
+"""At a real robot: who attends it, and what an operator may ask of the arm itself."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Body, Query
+
+from server.routes.dependencies import Id, Running, errors
+from server.schemas import Experiment
+from server.schemas_attendance import Attending, OperatorName
+
+EXAMPLES: dict[str, Any] = {"for five seconds": {"value": {"operator": "anna", "seconds": 5}}}
+
+router = APIRouter(prefix="/experiments/{experiment_id}", tags=["experiments"])
+
+
+@router.put("/attendance", responses=errors(404, 409, 413, 422))
+async def attend(
+    service: Running, experiment_id: Id, body: Annotated[Attending, Body(openapi_examples=EXAMPLES)]
+) -> Attending:
+    """Say that you stand at the robot and watch it. Say it again before the time is over: else whatever moves stops."""
+    await service.hub.attend(experiment_id, body.operator, body.seconds)
+    return body
+
+
+@router.delete("/attendance", status_code=204, responses=errors(404, 422))
+async def leave(service: Running, experiment_id: Id, operator: Annotated[OperatorName, Query()]) -> None:
+    """Leave the robot: what moves stops, and nothing moves until somebody attends it again."""
+    await service.hub.leave(experiment_id, operator)
+
+
+@router.post("/recover", responses=errors(404, 409, 422))
+async def recover(service: Running, experiment_id: Id) -> Experiment:
+    """Clear a collision reflex, once an operator has looked. After a user stop only releasing the button helps."""
+    return await service.hub.tend(experiment_id, "recover")
+
+
+@router.post("/home", responses=errors(404, 409, 422))
+async def home(service: Running, experiment_id: Id) -> Experiment:
+    """Bring the arm slowly to where it is out of the way. It moves at once, by the operator's word and no proposal."""
+    return await service.hub.tend(experiment_id, "home")
