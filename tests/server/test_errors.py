@@ -38,6 +38,7 @@ async def test_every_route_answers_errors_in_one_shape(tmp_path: Path) -> None:
         walked = 0
         for path, operations in document["paths"].items():
             here = re.sub(r"\{(name|camera)\}", "nothing", re.sub(r"\{\w+_id\}", "987654", path))
+            here = here.replace("{index}", "0")
             other = next(m for m in ("PUT", "TRACE") if m.lower() not in operations)
             assert check_problem(await live.http.request(other, here), 405).type == "/problems/method-not-allowed"
             for method, operation in operations.items():
@@ -46,8 +47,8 @@ async def test_every_route_answers_errors_in_one_shape(tmp_path: Path) -> None:
                     if int(status) >= 400 and path.startswith("/api"):
                         assert list(answer["content"]) == [MEDIA_TYPE], f"{method} {path} {status}"
                 if "{" in path:
-                    body = _body_of(document, operation)
-                    told = check_problem(await live.http.request(method, here, json=body), 404)
+                    body, asked = _body_of(document, operation), _query_of(operation)
+                    told = check_problem(await live.http.request(method, here, json=body, params=asked), 404)
                     assert "404" in described, f"{method} {path} doesn't document its 404"
                     assert told.type == "/problems/not-found"
                 if "{experiment_id}" in path or "{proposal_id}" in path or "{feedback_id}" in path:
@@ -77,6 +78,13 @@ def _body_of(document: dict[str, Any], operation: dict[str, Any]) -> Any:
         return None
     examples = operation["requestBody"]["content"]["application/json"]["examples"]
     return next(iter(examples.values()))["value"]
+
+
+def _query_of(operation: dict[str, Any]) -> dict[str, str]:
+    """Something for each parameter that must be asked with."""
+    parameters = operation.get("parameters", [])
+    asked = [p for p in parameters if p["in"] == "query" and p.get("required")]
+    return {p["name"]: "1" if p["schema"].get("type") == "integer" else "somebody" for p in asked}
 
 
 @pytest.fixture
