@@ -20,10 +20,8 @@ class FrankaSettings(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    host: str = Field("172.16.0.2", min_length=1, description="Address of the control box; with deoxys, of this PC.")
-    backend: Literal["franka_rs", "franky", "deoxys"] = Field(
-        "franka_rs", description="What drives the arm: franka-rs, franky, or a Deoxys that runs on the arm's computer."
-    )
+    host: str = Field("172.16.0.2", min_length=1, description="Address of the control box.")
+    backend: Literal["franka_rs", "franky"] = Field("franka_rs", description="What drives the arm.")
     realtime: bool = Field(
         True, description="Refuse to drive without a PREEMPT_RT kernel; only a simulated arm forgives late commands."
     )

@@ -17,7 +17,7 @@ from robot_adapters.franka.limits import Limits
 from robot_adapters.skills import LOWEST, TRANSIT_CLEARANCE
 from robot_adapters.tasks.base import Task
 
-BACKENDS = {"franka_rs": "franka_rs:FrankaRs", "franky": "franky_control:Franky", "deoxys": "deoxys:Deoxys"}
+BACKENDS = {"franka_rs": "franka_rs:FrankaRs", "franky": "franky_control:Franky"}
 MARGIN = 0.03
 """m around the task's bounds in which the hand may be: a push ends beyond them by design, and arms swing a little."""
 CEILING = 0.65

@@ -57,7 +57,7 @@ class TagDetector:
             from pyapriltags import Detector  # noqa: PLC0415  only who looks for tags needs it
         except ImportError as error:
             raise Unavailable(
-                f"pyapriltags can't be imported: {error}", remedy="pip install 'seed-robot[realsense]'"
+                f"pyapriltags can't be imported: {error}", remedy="pip install 'seed-robot[franka]'"
             ) from error
         # planning measured: decimated to half the size, tags of 3 cm are missed at a metre
         self._detector: Any = Detector(families=FAMILY, nthreads=threads, quad_decimate=1.0)

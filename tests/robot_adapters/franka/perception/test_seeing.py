@@ -26,7 +26,7 @@ from tests.robot_adapters.franka.perception.rendering import EYES, TABLE, Stage,
 
 AWAY = Hand(np.array([0.31, 0.0, 0.3]), 0.0, 0.08, False)
 GENEROUS = 0.002
-"""m; the figures that were measured are in docs/franka-cameras.md."""
+"""m; a bound on every object, several times what is expected of a working pipeline."""
 
 
 class Film:
