@@ -125,9 +125,9 @@ def test_a_file_that_cannot_be_imported_is_a_finding(tmp_path: Path) -> None:
 
 def test_the_service_offers_it_and_leaves_a_broken_one_out(sorting: Path, tmp_path: Path) -> None:
     sound = run(sorting, sys.executable, "-c", CATALOGUE).stdout.split()
-    assert sound.count("sorting") == 3, "in the list of tasks, and by both simulators"
+    assert sound.count("sorting") == 4, "in the list of tasks, by both simulators, and by the real arm"
     broken = run(mistaken(tmp_path, "    horizon = 6\n", ""), sys.executable, "-c", CATALOGUE)
-    assert sound.count("stacking") == broken.stdout.split().count("stacking") == 3
+    assert sound.count("stacking") == broken.stdout.split().count("stacking") == 4
     assert "the task sorting is left out" in broken.stderr
 
 

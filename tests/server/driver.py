@@ -139,6 +139,10 @@ class Driver:
         every = [proposal for model in self.experiments for proposal in model.proposals]
         other = data.draw(st.sampled_from([known.proposal, *every]))
         value = data.draw(st.sampled_from([known.value, 0]))
+        self._submit_again(known, other, value)
+
+    def _submit_again(self, known: Click, other: Proposal, value: int) -> None:
+        """The same id once more: harmless with the same content, else refused."""
         same = other is known.proposal and value == known.value
         answer = self._expect(same, self._store.submit_feedback(other.id, click(value, known.click_id, known.trainer)))
         if answer is not None:

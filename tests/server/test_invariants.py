@@ -24,11 +24,11 @@ TOGETHER = ("parallel", "overtaken", "left", "ruled", "in vain", "beside")
 left: a majority was split, and the third trainer has gone. ruled: a click waited for others, and the rule is `first`
 now. in vain: who was outvoted takes that back. beside: a click is taken back while the next proposal has a vote.
 """
-SITUATIONS = ("ready", "open", "split", "refused", "followed", "back", "approved", "halted", "moving", *TOGETHER)
-"""split: one good, one bad. followed: refused, and the next one open on the same observation. halted: once approved.
-
-back: followed, and the refusal is taken back.
+ALONE = ("ready", "open", "split", "again", "refused", "followed", "back", "approved", "halted", "moving", "dead")
+"""split: one good, one bad. again: refused, and a click of that repeated. followed: refused, and the next one open on
+the same observation. back: followed, and the refusal is taken back. halted: once approved. dead: crashed while moving.
 """
+SITUATIONS = (*ALONE, *TOGETHER)
 RULES = ("first", "majority", "unanimous")
 DISTURBANCES = (
     *AFTER,
@@ -86,7 +86,7 @@ class Machine(Driver, RuleBasedStateMachine):
         self._rule(model, ("first", "majority")[which])
         self._propose(model, x, 0)
         (proposal,) = model.open_proposals
-        bad = situation in ("refused", "followed", "back")
+        bad = situation in ("again", "refused", "followed", "back")
         self._votes(proposal, *{"open": (), "split": (1, -1)}.get(situation, (-1,) * 3 if bad else (1,) * 3))
         if situation in ("followed", "back"):
             self._propose(model, x, 0)
@@ -94,9 +94,14 @@ class Machine(Driver, RuleBasedStateMachine):
             self._undo(model.clicks[-1])
         if situation == "halted":
             self._halt(model)
-        if situation == "moving":
+            self._begin(proposal, current=True, inside=True)
+        if situation == "again":
+            self._submit_again(model.clicks[-1], proposal, model.clicks[-1].value)
+        if situation in ("moving", "dead"):
             self._begin(proposal, current=True, inside=True)
             self._undo(model.clicks[-1])
+        if situation == "dead":
+            self._crash()
 
     def _bring_together(self, model: Experiment, situation: str, x: float) -> None:
         self._rule(model, "majority")
@@ -175,7 +180,7 @@ def test_no_sequence_of_clicks_verbs_and_crashes_breaks_an_invariant() -> None:
     run_state_machine_as_test(
         Machine,
         settings=settings(
-            max_examples=18,
+            max_examples=24,
             stateful_step_count=12,
             deadline=None,
             derandomize=True,  # the same sequences every time; change the numbers to look further
