@@ -12,6 +12,8 @@ from tests.live import wait_for
 from tests.robot_adapters.franka.conftest import APART, BLOCKS, TABLE
 from tests.simulators.franka import PYTHON, SimulatedFranka
 
+pytestmark = pytest.mark.simulated_arm
+
 
 @pytest.fixture
 def lab() -> Iterator[SimulatedFranka]:

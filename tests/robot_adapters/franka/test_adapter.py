@@ -10,6 +10,8 @@ from robot_adapters.franka.adapter import FrankaAdapter
 from tests.robot_adapters.franka.conftest import APART, Build, errors, never, nothing
 from tests.simulators.franka import SimulatedFranka
 
+pytestmark = pytest.mark.simulated_arm
+
 BACKENDS = ["franka_rs", "franky"]
 
 

@@ -18,6 +18,8 @@ from tests.live import wait_for
 from tests.robot_adapters.franka.conftest import APART, TABLE, Build, never, nothing
 from tests.simulators.franka import SimulatedFranka
 
+pytestmark = pytest.mark.simulated_arm
+
 BACKENDS = ["franka_rs", "franky"]
 AWAY = SkillCall("place", (0.65, 0.10, TABLE + 0.10))
 

@@ -17,6 +17,8 @@ from tests.live import LiveService, wait_for
 from tests.robot_adapters.franka.conftest import APART, BLOCKS, TABLE
 from tests.simulators.franka import SimulatedFranka
 
+pytestmark = pytest.mark.simulated_arm
+
 PATIENCE = 120.0
 clicks = itertools.count(1)
 
