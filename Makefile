@@ -16,9 +16,9 @@ NPM := $(BIN)/python scripts/node.py npm
 INSTALL_FROM := pyproject.toml constraints.txt scripts/install.sh scripts/node.py
 WEB_SOURCES := $(shell find web -type d \( -name node_modules -o -name test \) -prune -o -type f -print 2>/dev/null)
 PYTEST_ARGS ?=
-# Most tests wait for processes, so more of them than cores go on at once. A file stays on one worker, and files in their
-# order: the browser's come last (tests/conftest.py).
-PYTEST_WORKERS ?= 4
+# A file stays on one worker, and files in their order: the browser's come last (tests/conftest.py). With more workers than
+# cores a learner, which gives way to everything else, may not start within its deadline.
+PYTEST_WORKERS ?= 2
 
 .PHONY: help run setup setup-dev test test-arm check check-web check-docker test-web bench api screenshots clean
 
