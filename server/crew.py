@@ -31,6 +31,10 @@ DEATHS = 3
 """More deaths of one worker than this within `DEATH_WINDOW` seconds, and the experiment has failed."""
 
 
+LABELS_AT_ONCE = 2_000
+"""Labels of one message to the learner, about 1 MB: a longer one would hold up everything else in this process."""
+
+
 class TooManyDeaths(WorkerError):
     """A worker that dies again and again: restarting it is of no use."""
 
@@ -243,7 +247,9 @@ class Crew:
         )
         await self._load_newest(learner)
         labels = await self._store.labels(experiment.id)
-        restored = await learner.call("restore", deadline=deadline, labels=[_wire(label) for label in labels])
+        for at in range(0, max(1, len(labels)), LABELS_AT_ONCE):
+            part, more = labels[at : at + LABELS_AT_ONCE], at + LABELS_AT_ONCE < len(labels)
+            restored = await learner.call("restore", deadline=deadline, labels=[_wire(one) for one in part], more=more)
         self.policy_version = restored["policy_version"]
         # what came while this went on; the learner knows an id that it has seen
         while self._missed or self._forgotten or self._corrected:

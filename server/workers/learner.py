@@ -48,6 +48,8 @@ class Learner:
         self._task: Task
         self._metrics: dict[str, float] = {}
         self._fault: Diverged | None = None
+        self._arriving: list[Label] = []
+        """Parts of what `restore` will take."""
         self._lockstep = False
         self.meanwhile: Callable[[], None] = lambda: None
         """Called within long gradient steps."""
@@ -120,9 +122,18 @@ class Learner:
         self.algorithm.add(self._labels(labels))
         return self._status()
 
-    def restore(self, *, labels: list[dict[str, Any]]) -> dict[str, Any]:
-        """Fill the replay after a start; labels newer than the checkpoint owe their steps."""
-        self.algorithm.restore(self._labels(labels))
+    def restore(self, *, labels: list[dict[str, Any]], more: bool = False) -> dict[str, Any]:
+        """Fill the replay after a start; labels newer than the checkpoint owe their steps.
+
+        more: another part follows. All parts are taken at the last one; if one is refused, none is.
+        """
+        arrived, self._arriving = self._arriving, []
+        arrived += [_label(self._task, stored) for stored in labels]
+        if more:
+            self._arriving = arrived
+        else:
+            self._starved = False
+            self.algorithm.restore(arrived)
         return self._status()
 
     def forget(self, *, feedback_id: int) -> dict[str, Any]:

@@ -73,6 +73,28 @@ async def test_cuda_asked_for_where_there_is_none_is_told_with_the_setting(monke
         await learner.close()
 
 
+async def test_labels_that_come_in_parts_are_taken_together_or_not_at_all() -> None:
+    learner = await Worker.spawn("learner", "server.workers.learner")
+    try:
+        built = {"task": "stacking", "algorithm": "seed", "settings": SMALL, "seed": 0, "lockstep": True}
+        await learner.call("configure", deadline=PATIENCE, threads=1, device="cpu", **built)
+        stored = {"state": [0.5] * 6, "skill": "pick", "parameters": [0.5, 0.0, -0.09], "value": 1}
+        parts = [[stored | {"id": number} for number in ids] for ids in ((1, 2), (3,), ())]
+        bad = [stored | {"id": 4, "skill": "juggle"}]
+        await learner.call("restore", deadline=PATIENCE, labels=parts[0], more=True)
+        with pytest.raises(CommandFailed, match="feedback 4 doesn't fit"):
+            await learner.call("restore", deadline=PATIENCE, labels=bad, more=False)
+        taken = [
+            await learner.call("restore", deadline=PATIENCE, labels=part, more=more)
+            for part, more in zip(parts, (True, True, False), strict=True)
+        ]
+        assert [told["last_label_id"] for told in taken] == [0, 0, 3]
+        assert [told["owed_updates"] for told in taken[:2]] == [0, 0]
+        assert taken[2]["owed_updates"] == 3 * SeedSettings.model_validate(SMALL).gradient_steps
+    finally:
+        await learner.close()
+
+
 async def test_feedback_about_what_the_task_no_longer_has_is_told() -> None:
     """A task of one's own is edited while its experiment rests: what is stored is about the task as it was."""
     learner = await Worker.spawn("learner", "server.workers.learner")
