@@ -26,6 +26,10 @@ class Wire(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 
+class NoFields(Wire):
+    """The body of a verb that takes none: a field that is meant to do something is refused, not ignored."""
+
+
 class Lifecycle(StrEnum):
     """Where an experiment is (DESIGN.md section 6). `halted` is a separate, latched flag."""
 

@@ -16,6 +16,7 @@ from server.schemas import (
     ExperimentPage,
     ExperimentUpdate,
     Lifecycle,
+    NoFields,
 )
 from server.schemas_listing import MOST_TAGS, Listing, Order, Sort, Tag
 
@@ -100,11 +101,16 @@ async def update_experiment(
 
 
 VERBS = errors(404, 409, 422)
+VERBS_WITH_BODY = errors(400, 404, 409, 413, 422)
+Nothing = Annotated[
+    NoFields | None,
+    Body(description="none is needed; a field is refused with 422", openapi_examples={"nothing": {"value": {}}}),
+]
 
 
-@router.post("/{experiment_id}/start", responses=VERBS)
-async def start_experiment(service: Running, experiment_id: Id) -> Experiment:
-    """Start a created experiment: its workers start, and the first proposal follows."""
+@router.post("/{experiment_id}/start", responses=VERBS_WITH_BODY)
+async def start_experiment(service: Running, experiment_id: Id, body: Nothing = None) -> Experiment:  # noqa: ARG001
+    """Start a created experiment: its workers start, and the first proposal follows. It runs until it is paused."""
     return await service.hub.act(experiment_id, "start")
 
 
@@ -114,8 +120,8 @@ async def pause_experiment(service: Running, experiment_id: Id) -> Experiment:
     return await service.hub.act(experiment_id, "pause")
 
 
-@router.post("/{experiment_id}/resume", responses=VERBS)
-async def resume_experiment(service: Running, experiment_id: Id) -> Experiment:
+@router.post("/{experiment_id}/resume", responses=VERBS_WITH_BODY)
+async def resume_experiment(service: Running, experiment_id: Id, body: Nothing = None) -> Experiment:  # noqa: ARG001
     """Go on, also after a failure or a restart of the service."""
     return await service.hub.act(experiment_id, "resume")
 

@@ -63,7 +63,8 @@ async def test_every_route_answers_errors_in_one_shape(tmp_path: Path) -> None:
                     zero = await live.http.get(known, params={"limit": 0})
                     assert check_problem(zero, 422).fields[0].field == "limit"
                 if "requestBody" in operation:
-                    for rubbish in (b"{", b"\xff\xfe", b'"text"', b"[]", b"null", b""):
+                    nothing = (b"null", b"") if operation["requestBody"].get("required") else ()
+                    for rubbish in (b"{", b"\xff\xfe", b'"text"', b"[]", *nothing):
                         sent = await live.http.request(
                             method, here, content=rubbish, headers={"Content-Type": "application/json"}
                         )

@@ -64,6 +64,16 @@ async def test_an_illegal_verb_is_a_conflict_that_names_state_and_allowed_verbs(
         assert (await live.http.get(f"/api/v1/experiments/{experiment}")).json()["lifecycle"] == "created"
 
 
+async def test_a_field_that_start_or_resume_would_ignore_is_refused(tmp_path: Path) -> None:
+    async with serving(tmp_path) as live:
+        address = f"/api/v1/experiments/{await live.experiment()}"
+        for verb in ("start", "resume"):
+            told = check_problem(await live.http.post(f"{address}/{verb}", json={"until": 5}), 422)
+            assert ["until" in field.field for field in told.fields] == [True]
+        assert (await live.http.get(address)).json()["lifecycle"] == "created"
+        assert (await live.http.post(f"{address}/start", json={})).json()["lifecycle"] == "running"
+
+
 async def test_the_emergency_stop_is_latched_until_someone_rearms(tmp_path: Path) -> None:
     async with serving(tmp_path) as live:
         address = f"/api/v1/experiments/{await live.experiment()}"

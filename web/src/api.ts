@@ -220,7 +220,7 @@ export interface paths {
         put?: never;
         /**
          * Start Experiment
-         * @description Start a created experiment: its workers start, and the first proposal follows.
+         * @description Start a created experiment: its workers start, and the first proposal follows. It runs until it is paused.
          */
         post: operations["start_experiment"];
         delete?: never;
@@ -3160,6 +3160,11 @@ export interface components {
          */
         Mode: "propose_only" | "execute_approved";
         /**
+         * NoFields
+         * @description The body of a verb that takes none: a field that is meant to do something is refused, not ignored.
+         */
+        NoFields: Record<string, never>;
+        /**
          * Overlay
          * @description A proposal drawn for one camera, in pixels of the full-size image (see `robot_adapters.base.CameraOverlay`).
          */
@@ -5372,7 +5377,11 @@ export interface operations {
             };
             cookie?: never;
         };
-        requestBody?: never;
+        requestBody?: {
+            content: {
+                "application/json": components["schemas"]["NoFields"] | null;
+            };
+        };
         responses: {
             /** @description Successful Response */
             200: {
@@ -5381,6 +5390,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Experiment"];
+                };
+            };
+            /** @description The body is no JSON, or nested too deeply */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
             /** @description A foreign page, or a foreign host name */
@@ -5403,6 +5421,15 @@ export interface operations {
             };
             /** @description The state of things doesn't allow it; `current` and `allowed` say what does */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -5524,7 +5551,11 @@ export interface operations {
             };
             cookie?: never;
         };
-        requestBody?: never;
+        requestBody?: {
+            content: {
+                "application/json": components["schemas"]["NoFields"] | null;
+            };
+        };
         responses: {
             /** @description Successful Response */
             200: {
@@ -5533,6 +5564,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Experiment"];
+                };
+            };
+            /** @description The body is no JSON, or nested too deeply */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
                 };
             };
             /** @description A foreign page, or a foreign host name */
@@ -5555,6 +5595,15 @@ export interface operations {
             };
             /** @description The state of things doesn't allow it; `current` and `allowed` say what does */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };
