@@ -93,11 +93,19 @@ class Chooser:
             self._pushes = {o: PushElimination(grounding, int(skills[o]), search.spacing) for o in pushes}
 
     @torch.inference_mode()
-    def choose(self, state: Float32, keypoints: Float32, generator: torch.Generator, *, deterministic: bool) -> Choice:
+    def choose(
+        self,
+        state: Float32,
+        keypoints: Float32,
+        generator: torch.Generator,
+        *,
+        deterministic: bool,
+        pending: Batch | None = None,
+    ) -> Choice:
         """The best candidate, or one drawn in proportion to exp(score / temperature).
 
         state: (n,) scaled. keypoints: (K, M, 3) m. Deterministic candidates are the actors' middles and what was good
-        before; nothing is drawn.
+        before; nothing is drawn. pending: calls in this state that count as refused, though nobody has refused them.
         """
         networks, grounding, search = self._networks, self._grounding, self._search
         states, here = (torch.from_numpy(array).unsqueeze(0) for array in (state, keypoints))
@@ -108,10 +116,12 @@ class Chooser:
         recalled = max(0, len(options) - search.recall)
         options, local = good = options[recalled:], local[recalled:]
         parts = [(torch.arange(grounding.options), torch.tanh(mean)), (options, local)]
-        refused = self._replay.refused(state, SAME_SITUATION)
+        refused, bad = self._replay.refused(state, SAME_SITUATION), self._replay.bad()
+        if pending is not None and len(pending.skills):
+            refused, bad = Batch.joined([refused, pending]), Batch.joined([bad, pending])
         if not deterministic:
             parts += self._drawn((mean, log_std), promising, generator)
-            self._look(parts, promising, refused, here[0], generator)
+            self._look(parts, promising, (refused, bad), here[0], generator)
             parts.append((options, local + JITTER * torch.randn(local.shape, generator=generator)))
             # the same position, other parameters: how far a push goes may differ from state to state
             anew = 2 * torch.rand(local[:, 3:].shape, generator=generator) - 1
@@ -167,24 +177,26 @@ class Chooser:
         self,
         parts: list[tuple[Tensor, Tensor]],
         promising: Tensor,
-        refused: Batch,
+        refused: tuple[Batch, Batch],
         keypoints: Tensor,
         generator: torch.Generator,
     ) -> None:
-        """Put the candidates of every skill that is still looked for where looking decides most."""
-        bad = self._replay.bad()
+        """Put the candidates of every skill that is still looked for where looking decides most.
+
+        refused: in this situation, and in any.
+        """
         for option, elimination in self._eliminations.items():
             if promising[option]:
                 continue
             skill = int(self._grounding.option_skill[option])
-            here, anywhere = (torch.from_numpy(batch.parameters[batch.skills == skill, :3]) for batch in (refused, bad))
+            here, anywhere = (torch.from_numpy(batch.parameters[batch.skills == skill, :3]) for batch in refused)
             at = elimination.next(here, anywhere, generator)
             for options, local in parts:
                 local[options == option, :3] = at
         for option, pushing in self._pushes.items():
             if promising[option]:
                 continue
-            calls = [self._of_option(batch, option) for batch in (refused, bad)]
+            calls = [self._of_option(batch, option) for batch in refused]
             keypoint = keypoints[self._grounding.option_skill[option], self._grounding.option_keypoint[option]]
             at = pushing.next(calls[0], calls[1], keypoint, generator)
             for options, local in parts:

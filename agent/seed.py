@@ -29,7 +29,7 @@ from agent.proposing import Choice, choose
 from agent.replay import Batch, Replay
 from agent.symmetry import symmetries
 from agent.training import Objective, Trainer
-from robot_adapters.base import Array
+from robot_adapters.base import Array, SkillCall
 
 
 class Seed:
@@ -106,7 +106,17 @@ class Seed:
         Raises:
             AgentError: the state has the wrong shape or holds a value that is not finite.
         """
-        choice = self._choose(state, deterministic=deterministic)
+        return self._suggestion(self._choose(state, deterministic=deterministic))
+
+    def propose_beside(self, state: Array, pending: Sequence[SkillCall]) -> Suggestion:
+        """Suggest a call for state (n,), supposing that the pending ones, which wait to be judged, will be refused.
+
+        Raises:
+            AgentError: as `propose`, or a pending call doesn't fit the task.
+        """
+        return self._suggestion(self._choose(state, deterministic=False, pending=pending))
+
+    def _suggestion(self, choice: Choice) -> Suggestion:
         names = self._encoder.skill_names
         return Suggestion(
             call=self._encoder.call(choice.skill, choice.parameters),
@@ -116,10 +126,15 @@ class Seed:
             uncertainty=choice.uncertainty,
         )
 
-    def _choose(self, state: Array, *, deterministic: bool) -> Choice:
+    def _choose(self, state: Array, *, deterministic: bool, pending: Sequence[SkillCall] = ()) -> Choice:
         scaled, keypoints = self._encoder.state(state), self._encoder.keypoints(state)
         if self._chooser is not None:
-            return self._chooser.choose(scaled, keypoints, self._proposing, deterministic=deterministic)
+            refused = self._replay.empty()
+            for number, call in enumerate(pending):
+                refused.add(self._encoder.entry(Label(number, state, call, -1), affordance_penalty=0.0))
+            return self._chooser.choose(
+                scaled, keypoints, self._proposing, deterministic=deterministic, pending=refused.bad()
+            )
         return choose(self._networks, scaled, keypoints, self._proposing, deterministic=deterministic)
 
     def add(self, labels: Sequence[Label]) -> None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cached_property
 
 import numpy as np
@@ -16,7 +16,7 @@ from robot_adapters import registry
 from robot_adapters.base import InvalidCall, SafetyViolation, SkillCall, check_call
 from robot_adapters.tasks.base import Task
 from server.crew import Crew
-from server.crew_values import Done, Seen
+from server.crew_values import Done, Idea, Seen
 from server.messages import ExecutionEnded, ExecutionStarted, ProposalClosed, StreamEvent
 from server.owed import Owed
 from server.robots import Robot
@@ -71,6 +71,19 @@ class Acting:
     async def draw(self, seen: Seen, *, purpose: Purpose = "training", deterministic: bool = False) -> NewProposal:
         """Sample a ~ pi_phi(.|s), x ~ pi_psi(.|s, a), and draw the call on the images of the observation."""
         idea = await self._crew.propose(seen.state, deterministic=deterministic)
+        return await self._drawn(idea, seen, purpose)
+
+    async def draw_batch(self, seen: Seen, count: int, pending: Sequence[SkillCall]) -> list[NewProposal]:
+        """At most so many that differ from each other and from the pending calls, for trainers who judge in parallel.
+
+        One beside nothing is drawn as ever, so that a run with one trainer can be repeated.
+        """
+        if count == 1 and not pending:
+            return [await self.draw(seen)]
+        ideas = await self._crew.propose_batch(seen.state, count, pending)
+        return [await self._drawn(idea, seen, "training") for idea in ideas]
+
+    async def _drawn(self, idea: Idea, seen: Seen, purpose: Purpose) -> NewProposal:
         overlays = await self._robot.overlay(idea.call)
         spec = check_call(idea.call, self.task.skills)
         return NewProposal(

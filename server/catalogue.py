@@ -16,9 +16,9 @@ from robot_adapters.base import AdapterFactory
 from robot_adapters.tasks.base import Task
 from robot_adapters.tasks.layout import LayoutSettings
 from server import auto_approval
-from server.errors import ServiceError, invalid
+from server.errors import invalid
 from server.scene import scene_info
-from server.schemas import Aggregation, ExperimentCreate, Mode
+from server.schemas import ExperimentCreate, Mode
 from server.schemas_catalogue import AdapterInfo, AlgorithmInfo, Parameter, Skill, TaskInfo, TeacherInfo
 from server.schemas_problems import FieldProblem
 from server.teacher import TeacherFactory, teachers
@@ -123,8 +123,8 @@ def check(body: ExperimentCreate) -> ExperimentCreate:
     if body.preset is not None:
         preset = _known("preset", body.preset, algorithm.presets)
     _check_layout(registry.tasks()[body.task]().layout, adapter, body.adapter_settings)
-    if body.aggregation is not Aggregation.FIRST:
-        raise one_trainer()
+    lockstep = body.teacher is not None if body.lockstep is None else body.lockstep
+    check_together(parallel=body.together.parallel, teacher=body.teacher, lockstep=lockstep)
     settings = _resolve("settings", algorithm.settings, {**preset, **body.settings})
     auto_approval.check(body.auto_approval, adapter=body.adapter, simulated=adapter.simulated, settings=settings)
     return body.model_copy(
@@ -137,11 +137,18 @@ def check(body: ExperimentCreate) -> ExperimentCreate:
     )
 
 
-def one_trainer() -> ServiceError:
-    """No rule but `first` makes sense yet."""
-    return invalid(
-        [FieldProblem(field="aggregation", message="needs several trainers, and there is one")], remedy="use 'first'"
-    )
+def check_together(*, parallel: bool, teacher: str | None, lockstep: bool) -> None:
+    """Refuse parallel proposals where a run is to be repeatable: which are open depends on who is there, and when.
+
+    Raises:
+        ServiceError: 422, naming the field.
+    """
+    if parallel and (teacher is not None or lockstep):
+        why = "a synthetic teacher judges one after another" if teacher else "every step can be repeated exactly"
+        raise invalid(
+            [FieldProblem(field="together.parallel", message=f"is for trainers who come and go, and here {why}")],
+            remedy="leave it off, or create the experiment without a teacher and with lockstep false",
+        )
 
 
 def _teacher_settings(body: ExperimentCreate) -> dict[str, Any]:

@@ -10,7 +10,7 @@ import asyncio
 import contextlib
 import logging
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -202,9 +202,13 @@ class Crew:
     async def propose(self, state: tuple[float, ...], *, deterministic: bool = False) -> Idea:
         """Suggest a call for this state."""
         reply = await self._learner("propose", QUICK, state=list(state), deterministic=deterministic)
-        call = SkillCall(reply["skill"], tuple(reply["parameters"]))
-        told = ("predicted_feedback", "skill_probabilities", "policy_version", "uncertainty")
-        return Idea(call, **{name: reply[name] for name in told})
+        return _idea(reply, reply["policy_version"])
+
+    async def propose_batch(self, state: tuple[float, ...], count: int, pending: Sequence[SkillCall]) -> list[Idea]:
+        """Suggest at most so many calls, each unlike the others and the pending ones."""
+        waiting = [{"skill": call.skill, "parameters": list(call.parameters)} for call in pending]
+        reply = await self._learner("propose_batch", QUICK, state=list(state), count=count, pending=waiting)
+        return [_idea(suggestion, reply["policy_version"]) for suggestion in reply["suggestions"]]
 
     async def flush(self) -> None:
         """Wait until every owed gradient step is taken."""
@@ -302,6 +306,16 @@ class Crew:
         status = await self.learner.worker.call(command, deadline=deadline, **arguments)
         self.metrics, self.policy_version = status["metrics"], status["policy_version"]
         return status
+
+
+def _idea(told: Mapping[str, Any], policy_version: int) -> Idea:
+    return Idea(
+        SkillCall(told["skill"], tuple(told["parameters"])),
+        predicted_feedback=told["predicted_feedback"],
+        skill_probabilities=told["skill_probabilities"],
+        policy_version=policy_version,
+        uncertainty=told["uncertainty"],
+    )
 
 
 def _wire(label: StoredLabel) -> dict[str, Any]:

@@ -112,9 +112,10 @@ def invalid(fields: list[FieldProblem], remedy: str) -> ServiceError:
 
 def late_feedback(feedback: Feedback) -> ServiceError:
     """A click that came after its proposal had closed: it is kept, and decides nothing."""
+    why = feedback.late_because or "it came too late"
     return ServiceError(
         409,
-        f"proposal {feedback.proposal_id} was closed before this click came; it is kept as late and decides nothing",
+        f"this click on proposal {feedback.proposal_id} is kept and decides nothing: {why}",
         remedy="judge the proposal that is open now",
         slug="late-feedback",
         extra={"feedback": feedback.model_dump(mode="json")},

@@ -16,7 +16,6 @@ from server.messages import EvaluationChanged, ExecutionEnded, ExperimentChanged
 from server.publisher import Publisher
 from server.runner import Runner
 from server.schemas import (
-    Aggregation,
     Evaluation,
     EvaluationCreate,
     Experiment,
@@ -29,6 +28,7 @@ from server.schemas import (
 )
 from server.schemas_labels import RelabelCreate
 from server.schemas_listing import Listing
+from server.seats import Seats
 from server.settings import Settings
 from server.store import Conflict, NotFound, Receipt, Store, StoreError
 
@@ -48,6 +48,7 @@ class Hub:
         self._settings = settings
         self._publisher = publisher
         self._runners: dict[int, Runner] = {}
+        self.seats = Seats(store, publisher)
         # verbs of one experiment come one after another; a halt waits for none of them
         self._verbs: defaultdict[int, asyncio.Lock] = defaultdict(asyncio.Lock)
 
@@ -75,13 +76,13 @@ class Hub:
         page = await self.store.experiments(cursor=cursor, limit=limit, listing=listing)
         return page.model_copy(update={"items": [self._live(item) for item in page.items]})
 
-    async def snapshot(self, experiment_id: int, boot_id: str) -> Snapshot:
-        """Everything a page needs to draw itself."""
+    async def snapshot(self, experiment_id: int, boot_id: str, trainer: str | None = None) -> Snapshot:
+        """Everything a page needs to draw itself. trainer: whose it is; None: nobody's in particular."""
         experiment, proposals, executions, undoable = await asyncio.gather(
             self.view(experiment_id),
             self.store.open_proposals(experiment_id),
             self.store.running_executions(experiment_id),
-            self.store.undoable(experiment_id),
+            self.store.undoable(experiment_id, trainer),
         )
         return Snapshot(
             experiment=experiment,
@@ -90,6 +91,7 @@ class Hub:
             execution=executions[0] if executions else None,
             executions=executions,
             undoable=undoable,
+            judges=self.seats.of(experiment_id).judges,
             robots=[
                 RobotTold(robot=robot.index, telemetry=robot.telemetry)
                 for robot in (self._runners[experiment_id].crew.robots if experiment_id in self._runners else ())
@@ -225,18 +227,23 @@ class Hub:
         Raises:
             NotFound: no such experiment. ServiceError: the critic may not approve by itself in this one.
         """
-        if body.aggregation not in (None, Aggregation.FIRST):
-            raise catalogue.one_trainer()
+        changed = await self.store.experiment(experiment_id)
+        if body.together is not None:
+            catalogue.check_together(
+                parallel=bool(body.together.parallel), teacher=changed.teacher, lockstep=changed.lockstep
+            )
         if body.auto_approval is not None:
-            changed = await self.store.experiment(experiment_id)
             simulated = registry.adapter(changed.adapter).simulated
             auto_approval.check(
                 body.auto_approval, adapter=changed.adapter, simulated=simulated, settings=changed.settings
             )
-        experiment = await self.store.update_experiment(experiment_id, body)
         if runner := self._runners.get(experiment_id):
+            async with runner.turn():
+                experiment, concluded = await self.store.update_and_conclude(experiment_id, body)
+                runner.conclude(concluded)
             runner.changed(experiment)
         else:
+            experiment = await self.store.update_experiment(experiment_id, body)
             self._publisher.publish(experiment_id, ExperimentChanged(experiment=experiment))
         return self._live(experiment)
 
@@ -252,7 +259,7 @@ class Hub:
                 click, or the proposal isn't for people to judge.
         """
         desks = (station.desk for runner in self._runners.values() for station in runner.stations)
-        proposal = next((desk.open for desk in desks if desk.open is not None and desk.open.id == proposal_id), None)
+        proposal = next((found for desk in desks if (found := desk.find(proposal_id))), None)
         if proposal is None:
             proposal = await self.store.proposal(proposal_id)
         if experiment_id is not None and proposal.experiment_id != experiment_id:
@@ -262,15 +269,15 @@ class Hub:
         submission = await asyncio.shield(asyncio.create_task(desk.feedback(proposal_id, body, "person")))
         return submission.feedback, submission.duplicate
 
-    async def undo(self, feedback_id: int) -> Feedback:
-        """Take the newest click back, while nothing has moved since.
+    async def undo(self, feedback_id: int, *, by: str | None = None) -> Feedback:
+        """Take a trainer's newest click back, while nothing has moved since. by: who asks, where that is known.
 
         Raises:
             NotFound: no such feedback. Conflict: it is too late.
         """
         feedback = await self.store.feedback(feedback_id)
         desk = await self._desk_of(await self.store.proposal(feedback.proposal_id))
-        return await asyncio.shield(asyncio.create_task(desk.undo(feedback_id)))
+        return await asyncio.shield(asyncio.create_task(desk.undo(feedback, by=by)))
 
     async def relabel(
         self, feedback_id: int, body: RelabelCreate, experiment_id: int | None = None, *, anybodys: bool = False
@@ -356,8 +363,9 @@ class Hub:
     async def _runner(self, experiment_id: int) -> Runner:
         if experiment_id not in self._runners:
             experiment = await self.store.experiment(experiment_id)
-            # another caller may have been quicker
-            self._runners.setdefault(experiment_id, Runner(experiment, self.store, self._settings, self._publisher))
+            if experiment_id not in self._runners:  # else another caller was quicker
+                seating = self.seats.of(experiment_id)
+                self._runners[experiment_id] = Runner(experiment, self.store, self._settings, self._publisher, seating)
         return self._runners[experiment_id]
 
     def _attending(self, experiment_id: int) -> str | None:

@@ -40,7 +40,7 @@ class Judge:
         """
         case = Case(np.array(proposal.state), call, judging(self._seed, proposal.number))
         judgement = self._teacher.judge(case)
-        if judgement.delay > 0 and not await self._desk.wait(judgement.delay, leave):
+        if judgement.delay > 0 and not await self._desk.wait(proposal, judgement.delay, leave):
             return
         async with self._quota.one_more() as wanted:
             if wanted:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import logging
+from collections import defaultdict
 from collections.abc import Callable, Coroutine
 from dataclasses import dataclass
 from typing import Any
@@ -16,6 +17,13 @@ from server.store import Store, StoreError
 from server.worker import WorkerError
 
 log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class _Vote:
+    feedback_id: int
+    predicted_feedback: float
+    label: int | None
 
 
 @dataclass(frozen=True)
@@ -49,18 +57,35 @@ class Ledger:
         self._feedback = experiment.counters.feedback
         self._good = experiment.counters.good
         self._notes: list[_Note] = []
+        self._votes: defaultdict[int, list[_Vote]] = defaultdict(list)
+        """On proposals that are still open: what was said of them isn't told."""
         self._unsaved = 0
         self._task: asyncio.Task[None] | None = None
 
-    def note(self, proposal: Proposal, label: int | None) -> None:
-        """Remember a counted click until `write`; one that says nothing is no feedback."""
-        if label is None:
+    def note(self, proposal: Proposal, feedback_id: int, label: int | None) -> None:
+        """Remember a counted click until its proposal is closed."""
+        self._votes[proposal.id].append(_Vote(feedback_id, proposal.predicted_feedback, label))
+
+    def release(self, proposal_id: int) -> None:
+        """It is closed: what was said of it may be written down. A click that says nothing is no feedback."""
+        for vote in self._votes.pop(proposal_id, ()):
+            if vote.label is None:
+                self.refresh()
+                continue
+            self._feedback += 1
+            self._good += vote.label == 1
+            self._notes.append(_Note(self._feedback, self._good, vote.predicted_feedback, vote.label))
+            self._unsaved += 1
+
+    def undo(self, proposal_id: int, feedback_id: int, label: int | None) -> None:
+        """A click was taken back, before its proposal was closed or after."""
+        votes = self._votes.get(proposal_id, [])
+        held = [vote for vote in votes if vote.feedback_id != feedback_id]
+        if len(held) < len(votes):
+            self._votes[proposal_id] = held
             self.refresh()
-            return
-        self._feedback += 1
-        self._good += label == 1
-        self._notes.append(_Note(self._feedback, self._good, proposal.predicted_feedback, label))
-        self._unsaved += 1
+        else:
+            self.recount(label, None)
 
     def write(self) -> None:
         """Write down what has been noted, soon."""

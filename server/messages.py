@@ -21,6 +21,7 @@ from server.schemas import (
 from server.schemas_labels import Answer, ClickId, EstimateShown, RelabelCreate, TrainerName
 from server.schemas_problems import Problem
 from server.schemas_telemetry import Telemetry
+from server.schemas_together import Judge, Looked
 
 # --- stream: server to client -------------------------------------------------------------------------------------
 
@@ -47,10 +48,13 @@ class Snapshot(Event):
     type: Literal["snapshot"] = "snapshot"
     experiment: Experiment
     proposal: Annotated[Proposal | None, Field(description="the oldest open proposal, if any")] = None
-    proposals: Annotated[list[Proposal], Field(description="every open proposal, one a robot at most, oldest first")]
+    proposals: Annotated[list[Proposal], Field(description="every open proposal, one a slot of a robot, oldest first")]
+    judges: Annotated[list[Judge], Field(description="who is there to judge, and at what")] = []  # noqa: RUF012
     execution: Annotated[Execution | None, Field(description="the oldest running execution, if any")] = None
     executions: Annotated[list[Execution], Field(description="every running execution, oldest first")]
-    undoable: Annotated[Feedback | None, Field(description="the newest feedback, while it can be undone")] = None
+    undoable: Annotated[
+        Feedback | None, Field(description="this trainer's newest feedback, while it can be undone")
+    ] = None
     robots: Annotated[list[RobotTold], Field(description="what each robot told of itself last")] = []  # noqa: RUF012
     operator: Annotated[str | None, Field(description="who attends the real robot; null: nobody does")] = None
     server_time: datetime
@@ -85,8 +89,25 @@ class ProposalClosed(Event):
     proposal: Proposal
 
 
+class ProposalChanged(Event):
+    """Somebody has voted on an open proposal, or its electorate is another; what was said is told once it is closed."""
+
+    type: Literal["proposal_changed"] = "proposal_changed"
+    proposal: Proposal
+
+
+class JudgesChanged(Event):
+    """Who is there to judge, and which open proposal each has before them."""
+
+    type: Literal["judges_changed"] = "judges_changed"
+    judges: list[Judge]
+
+
 class FeedbackStored(Event):
-    """A click is committed. `undoable` says whether it can still be undone."""
+    """A click is committed, and its proposal closed by it. `undoable` says whether it can still be undone.
+
+    While others are still asked, only who has clicked is told (`proposal_changed`), and the answer goes to them.
+    """
 
     type: Literal["feedback_stored"] = "feedback_stored"
     feedback: Feedback
@@ -197,7 +218,9 @@ StreamEvent = Annotated[
     | Resumed
     | ExperimentChanged
     | ProposalOpened
+    | ProposalChanged
     | ProposalClosed
+    | JudgesChanged
     | FeedbackStored
     | FeedbackUndone
     | FeedbackRelabelled
@@ -240,6 +263,13 @@ class ClientFeedback(Wire):
     value: Answer
     trainer: TrainerName = "local"
     estimate_shown: EstimateShown = None
+    looked: Looked | None = None
+
+
+class ClientLook(Wire):
+    """The trainer of this connection looks at their proposal: it stays theirs."""
+
+    type: Literal["look"]
 
 
 class ClientRelabel(RelabelCreate):
@@ -277,6 +307,6 @@ class ClientPing(Wire):
 
 
 ClientMessage = Annotated[
-    ClientFeedback | ClientRelabel | ClientUndo | ClientHalt | ClientFrameAck | ClientPing,
+    ClientFeedback | ClientLook | ClientRelabel | ClientUndo | ClientHalt | ClientFrameAck | ClientPing,
     Field(discriminator="type"),
 ]

@@ -27,10 +27,12 @@ from server.publisher import Publisher
 from server.quota import Quota
 from server.rollouts import roll_out
 from server.schemas import Evaluation, Experiment, Lifecycle, Phase
+from server.seating import Seating
 from server.settings import Settings
 from server.standing import Standing
 from server.station import Shared, Station
 from server.store import Conflict, Store, StoreError
+from server.store_values import Concluded
 from server.training import train, train_in_step
 from server.witness import Witness
 from server.worker import WorkerDied, WorkerError
@@ -44,7 +46,9 @@ STOP_GRACE = 2.0
 class Runner:
     """Runs one experiment. Its public methods are the hub's; all of it lives on one event loop."""
 
-    def __init__(self, experiment: Experiment, store: Store, settings: Settings, publisher: Publisher) -> None:
+    def __init__(
+        self, experiment: Experiment, store: Store, settings: Settings, publisher: Publisher, seating: Seating
+    ) -> None:
         self._store = store
         self._publisher = publisher
         factory = registry.adapters().get(experiment.adapter)  # an experiment whose plug-in is gone can be looked at
@@ -80,10 +84,19 @@ class Runner:
             ask_operator=self._ask_operator,
             stop=self.stop,
             witness=self.witness,
+            seating=seating,
+            still=lambda: sum(not station.moving for station in self.stations),
         )
         self.stations = tuple(Station(robot, shared) for robot in self.crew.robots)
         self._course = Course(f"experiment {experiment.id}")
         self._evaluating = False
+        self._seated: set[asyncio.Task[None]] = set()
+        self.seating = seating
+        seating.opened = lambda: [proposal for station in self.stations for proposal in station.desk.opened]
+        seating.on_change = self._wake
+        seating.on_arrived = lambda: self._soon(self._welcome())
+        seating.on_vanished = lambda names: self._soon(self._do_without(names))
+        seating.follow(experiment.aggregation, experiment.together)
 
     # --- what the hub asks --------------------------------------------------------------------------------------
 
@@ -222,7 +235,39 @@ class Runner:
     def changed(self, experiment: Experiment) -> None:
         """Take over what is stored, unless something newer is known, and tell everyone."""
         self.standing.changed(experiment)
+        self.seating.follow(self.experiment.aggregation, self.experiment.together)
         self._wake()
+
+    def conclude(self, concluded: Sequence[Concluded]) -> None:
+        """Take over what votes on open proposals add up to now."""
+        for station in self.stations:
+            station.desk.conclude(concluded)
+        self.seating.deal()
+
+    # --- who is there --------------------------------------------------------------------------------------------
+
+    async def _do_without(self, names: list[str]) -> None:
+        """These trainers are gone: nothing that is open waits for them any more."""
+        if any(set(names) & set(proposal.electorate) for proposal in self.seating.opened()):
+            async with self.turn():
+                self.conclude(await self._store.leave_electorates(self.experiment.id, names))
+
+    async def _welcome(self) -> None:
+        """Somebody has come: what nobody was there for is theirs."""
+        if any(not proposal.electorate for proposal in self.seating.opened()):
+            async with self.turn():
+                self.conclude(await self._store.enter_electorates(self.experiment.id, self.seating.names))
+
+    def _soon(self, work: Coroutine[Any, Any, None]) -> None:
+        async def follow() -> None:
+            try:
+                await work
+            except StoreError as error:
+                log.warning("experiment %d: who is there could not be stored: %s", self.experiment.id, error)
+
+        task = asyncio.create_task(follow(), name=f"seats of experiment {self.experiment.id}")
+        self._seated.add(task)
+        task.add_done_callback(self._seated.discard)
 
     # --- the loop -----------------------------------------------------------------------------------------------
 

@@ -15,7 +15,7 @@ from server.schemas_incidents import Report, Violation
 from server.schemas_labels import Answer, ClickId, EstimateShown, Relabel, TrainerName, label_of
 from server.schemas_listing import Tags
 from server.schemas_quality import GoldRate, PracticeRequired
-from server.schemas_together import Looked, Together, TogetherUpdate
+from server.schemas_together import Judge, Looked, Together, TogetherUpdate
 from server.schemas_trust import Audit, AutoApproval, Suspended, Uncertainty, VerdictSource
 from server.schemas_views import View
 
@@ -267,6 +267,13 @@ class ProposalPage(Page):
     items: list[Proposal]
 
 
+class Next(Wire):
+    """What a trainer is to judge, of all robots and slots; theirs until `judge.until`."""
+
+    proposal: Annotated[Proposal | None, Field(description="null: nothing waits for them now; ask again")]
+    judge: Judge
+
+
 class FeedbackCreate(Wire):
     """One click."""
 
@@ -308,6 +315,7 @@ class Feedback(Wire):
     received_at: datetime
     undone_at: datetime | None = None
     estimate_shown: EstimateShown = None
+    late_because: Annotated[str | None, Field(description="why it didn't count, in words; told to its sender")] = None
 
 
 class FeedbackPage(Page):

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from datetime import datetime
 from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field, StrictBool, StrictInt
+
+from server.schemas_labels import TrainerName
 
 
 class _Wire(BaseModel):
@@ -57,6 +60,24 @@ class TogetherUpdate(_Wire):
     weighted_approves: StrictBool | None = None
     lease_seconds: LeaseSeconds | None = None
     vanish_seconds: VanishSeconds | None = None
+
+
+class Judge(_Wire):
+    """A trainer who is there, and what they have before them."""
+
+    trainer: str
+    proposal_id: Annotated[int | None, Field(description="the open proposal that is theirs to judge")] = None
+    until: Annotated[datetime | None, Field(description="when it goes back, without a sign that they look at it")] = (
+        None
+    )
+    here: Annotated[bool, Field(description="whether a page of theirs is connected")] = True
+    away: Annotated[bool, Field(description="connected, but without a sign of life for longer than a lease")] = False
+
+
+class NextCreate(_Wire):
+    """Ask for the next proposal."""
+
+    trainer: TrainerName = "local"
 
 
 class Looked(_Wire):

@@ -17,6 +17,7 @@ from server.ledger import Ledger
 from server.quota import Quota
 from server.robots import Robot
 from server.schemas import CloseReason, Execution, Experiment, Phase, Proposal
+from server.seating import Seating
 from server.seeds import episode_seed
 from server.standing import Standing
 from server.store import Store
@@ -26,6 +27,10 @@ from server.witness import Witness
 from server.worker import WorkerDied
 
 AskOperator = Callable[[Literal["halt", "pause"], Sequence[str]], Awaitable[None]]
+
+
+AHEAD = 2
+"""Proposals drawn ahead where trainers judge in parallel: two of them may click before the next are drawn."""
 
 
 @dataclass(frozen=True)
@@ -42,6 +47,9 @@ class Shared:
     stop: Callable[[], None]
     """Emergency stop of every robot of the experiment."""
     witness: Witness
+    seating: Seating
+    still: Callable[[], int]
+    """How many robots of the experiment don't move."""
     beginning: asyncio.Lock = field(default_factory=asyncio.Lock)
     """Episodes begin one after another: each has a number and a seed of its own."""
 
@@ -56,7 +64,14 @@ class Station:
         self._standing = shared.standing
         standing = shared.standing
         self.desk = Desk(
-            shared.store, shared.crew, robot, shared.ledger, shared.publish, experiment=lambda: standing.experiment
+            shared.store,
+            shared.crew,
+            robot,
+            shared.ledger,
+            shared.publish,
+            seating=shared.seating,
+            experiment=lambda: standing.experiment,
+            wanted=lambda: shared.seating.wanted(shared.still()),
         )
         self.acting = Acting(
             standing.experiment,
@@ -103,7 +118,7 @@ class Station:
         if self._reset_wanted:
             self._reset_wanted = False
             await self.desk.withdraw()
-            self.desk.forget_ahead()
+            self.desk.ahead.forget()
             await self.end_episode("reset")
         if self._episode_open:
             return
@@ -126,15 +141,23 @@ class Station:
         return self._seen
 
     async def propose(self, seen: Seen) -> None:
-        """Have a proposal open, unless an undo or a click has opened one, or one waits for the gate."""
-        if self.desk.open is None and self.desk.judged is None:
+        """Have as many proposals open as are wanted, unless one waits for the gate; clicks and undo open some too."""
+        missing = self.desk.missing
+        if not missing:
+            return
+        if not self.desk.opened:
             self.enter(Phase.PROPOSING)
-            await self.desk.present(await self.acting.draw(seen))
-            if self._reset_wanted:  # it came meanwhile: there was nothing to withdraw yet
-                await self.desk.withdraw()
+        drawn = await self.acting.draw_batch(seen, missing, self.desk.calls)
+        for each in drawn:
+            if not self.desk.judged:  # one was approved meanwhile: this one would be closed at once
+                await self.desk.present(each)
+        if len(drawn) < missing:
+            self.desk.no_more()
+        if self._reset_wanted:  # it came meanwhile: there was nothing to withdraw yet
+            await self.desk.withdraw()
 
     async def consider(self) -> None:
-        """Let the critic judge the open proposal, where the experiment has a rule for that."""
+        """Let the critic judge what is open, where the experiment has a rule for that."""
         await self.desk.consider(simulated=self.acting.simulated)
 
     async def query(self, seen: Seen, leave: asyncio.Event) -> Proposal | None:
@@ -143,25 +166,28 @@ class Station:
         Raises:
             WorkerDied: a worker went away while this waited.
         """
-        if self.desk.open is not None:
+        if self.desk.opened:
             self.enter(Phase.AWAITING_FEEDBACK)
             if not self.experiment.lockstep:  # where all are in step, a round's clicks are written down at its end
                 self._shared.ledger.write()
-            asked = self.desk.open
+            asked = self.desk.opened[0]
             if self.judge is not None and not self.judge.has_judged(asked):
                 await self.judge.judge(asked, self.acting.call_of(asked), leave)
             elif not self.experiment.lockstep:
-                self.desk.draw_ahead(lambda: asyncio.create_task(self._draw_ahead(seen)))
+                self.desk.ahead.draw(lambda: asyncio.create_task(self._draw_ahead(seen)))
         return await self.desk.verdict(leave)
 
     async def decide(self, judged: Proposal, seen: Seen) -> Execution | None:
         """Ask the gate; if it opens, the execution is stored as started, and `carry_out` is to follow."""
         self.enter(Phase.DECIDING)
         async with self.desk.turn:
-            if self.desk.judged is not judged:  # taken back in the meantime
+            if not any(proposal is judged for proposal in self.desk.judged):  # taken back in the meantime
                 return None
-            self.desk.judged = None
-            return await self.acting.decide(judged, seen)
+            self.desk.judged = [proposal for proposal in self.desk.judged if proposal is not judged]
+            execution = await self.acting.decide(judged, seen)
+            if execution is not None:
+                await self.desk.supersede(judged)
+            return execution
 
     async def written(self) -> None:
         """Write down what has been counted, and wait for it."""
@@ -239,15 +265,18 @@ class Station:
         """Put away what lies on the desk: nobody works here any more."""
         await self.desk.withdraw()
         self.desk.drop_judged()
-        self.desk.forget_ahead()
+        self.desk.ahead.forget()
 
-    async def _draw_ahead(self, seen: Seen) -> NewProposal:
+    async def _draw_ahead(self, seen: Seen) -> list[NewProposal]:
         """What would be proposed next if nothing moves, once the learner is done.
 
         Alone, its policy stands still from then on; where others are judged, what is drawn is of the policy before.
         """
-        await self._shared.crew.flush()
-        return await self.acting.draw(seen)
+        if self.desk.wanted() == 1:
+            await self._shared.crew.flush()
+            return [await self.acting.draw(seen)]
+        # in parallel clicks come faster than the learner is done: it is asked between two steps
+        return await self.acting.draw_batch(seen, AHEAD, self.desk.calls)
 
     def _response(self, done: Done) -> Response:
         kinds = [kind for kind, _ in done.violations]

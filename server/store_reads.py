@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from sqlalchemy import Select, select
+from sqlalchemy import ColumnElement, Select, exists, or_, select
 from sqlalchemy.orm import Session
 
 from server import (
@@ -93,19 +93,23 @@ class Reads:
         return await self._one(models.FeedbackRow, feedback_id, "feedback", wire.feedback)
 
     async def feedback_of_proposal(
-        self, proposal_id: int, cursor: str | None = None, limit: int = 50
+        self, proposal_id: int, cursor: str | None = None, limit: int = 50, *, told: bool = False
     ) -> schemas.FeedbackPage:
-        """Clicks on a proposal, late and undone ones too, newest first."""
+        """Clicks on a proposal, late and undone ones too, newest first. told: without votes on what is still open."""
         await self.proposal(proposal_id)
         query = select(models.FeedbackRow).where(models.FeedbackRow.proposal_id == proposal_id)
+        if told:
+            query = query.where(_told())
         items, after = await self._page(query, models.FeedbackRow.id, wire.feedback, cursor, limit)
         return schemas.FeedbackPage(items=items, next_cursor=after)
 
     async def feedback_of_experiment(
-        self, experiment_id: int, cursor: str | None = None, limit: int = 50
+        self, experiment_id: int, cursor: str | None = None, limit: int = 50, *, told: bool = False
     ) -> schemas.FeedbackPage:
-        """Clicks of an experiment, late and undone ones too, newest first."""
+        """Clicks of an experiment, late and undone ones too, newest first. told: as `feedback_of_proposal`."""
         query = select(models.FeedbackRow).where(models.FeedbackRow.experiment_id == experiment_id)
+        if told:
+            query = query.where(_told())
         items, after = await self._page(query, models.FeedbackRow.id, wire.feedback, cursor, limit, of=experiment_id)
         return schemas.FeedbackPage(items=items, next_cursor=after)
 
@@ -235,3 +239,10 @@ class Reads:
             return store_pages.page(session, query, key, convert, cursor=cursor, limit=limit, newest_first=newest_first)
 
         return await self._database.read(find)
+
+
+def _told() -> ColumnElement[bool]:
+    """Not what somebody has said of a proposal on which others are still asked."""
+    row, of = models.FeedbackRow, models.ProposalRow
+    asked = exists().where(of.id == row.proposal_id, of.closed_at.is_(None))
+    return or_(row.status != "stored", row.undone_at.is_not(None), ~asked)

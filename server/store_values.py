@@ -69,7 +69,7 @@ class StoredLabel:
 class Submission:
     """What became of a click. `closed` is the proposal if this very click closed it; `labels` train by that.
 
-    heard: the proposal, now that this vote is counted. late_because: why it isn't, in words.
+    heard: the proposal, now that this vote is counted.
     """
 
     feedback: Feedback
@@ -77,7 +77,6 @@ class Submission:
     heard: Proposal | None = None
     closed: Proposal | None = None
     labels: Sequence[StoredLabel] = ()
-    late_because: str | None = None
 
 
 @dataclass(frozen=True)

@@ -38,7 +38,7 @@ def submit(
             )
         late = known.status == schemas.FeedbackStatus.LATE
         why = _why_late(session, load_proposal(session, proposal_id), click, None) if late else None
-        return Submission(feedback_wire(known), duplicate=True, late_because=why)
+        return Submission(_late(known, why), duplicate=True)
     proposal = load_proposal(session, proposal_id)
     if proposal.purpose != "training":
         raise Conflict("this proposal belongs to an evaluation", remedy="judge the proposals of a running experiment")
@@ -57,7 +57,7 @@ def submit(
     experiment.updated_at = now()
     if late:
         experiment.late += 1
-        return Submission(feedback_wire(row), duplicate=False, late_because=late_because)
+        return Submission(_late(row, late_because), duplicate=False)
     count(experiment, click.label, 1)
     _conclude(session, experiment, proposal)
     told = _told(session, proposal)
@@ -199,6 +199,10 @@ def _told(session: Session, proposal: ProposalRow) -> schemas.Proposal:
     session.flush()
     session.refresh(proposal, ["votes"])
     return proposal_wire(proposal)
+
+
+def _late(row: FeedbackRow, why: str | None) -> schemas.Feedback:
+    return feedback_wire(row).model_copy(update={"late_because": why})
 
 
 def _why_late(

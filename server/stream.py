@@ -27,6 +27,7 @@ from server.messages import (
     ClientFeedback,
     ClientFrameAck,
     ClientHalt,
+    ClientLook,
     ClientMessage,
     ClientPing,
     ClientRelabel,
@@ -39,7 +40,7 @@ from server.messages import (
 from server.schemas import Feedback, FeedbackCreate
 from server.schemas_labels import RelabelCreate
 from server.store import Store
-from server.store_errors import NotFound
+from server.store_errors import NotFound, StoreError
 
 TRY_AGAIN_LATER = 1013
 POLICY_VIOLATION = 1008
@@ -49,6 +50,8 @@ INBOX_LIMIT = 64
 """Messages of one viewer that may wait for the store."""
 FAREWELL_SECONDS = 30.0
 """How long a close frame may wait for a viewer that has stopped reading."""
+
+Request = ClientFeedback | ClientRelabel | ClientUndo
 
 _client_message: TypeAdapter[ClientMessage] = TypeAdapter(ClientMessage)
 
@@ -164,13 +167,24 @@ class Rooms:
 class Connection:
     """One viewer's WebSocket on one experiment."""
 
-    def __init__(self, socket: WebSocket, outbox: Outbox, hub: Hub, store: Store, experiment_id: int) -> None:
+    def __init__(
+        self,
+        socket: WebSocket,
+        outbox: Outbox,
+        hub: Hub,
+        store: Store,
+        experiment_id: int,
+        *,
+        trainer: str | None = None,
+    ) -> None:
+        """trainer: whose page it is; None: somebody's who only watches, or whose clicks say who they are."""
         self._socket = socket
         self._outbox = outbox
         self._hub = hub
         self._store = store
         self._experiment_id = experiment_id
-        self._inbox: asyncio.Queue[ClientFeedback | ClientRelabel | ClientUndo] = asyncio.Queue(INBOX_LIMIT)
+        self._trainer = trainer
+        self._inbox: asyncio.Queue[Request] = asyncio.Queue(INBOX_LIMIT)
         self._going: set[asyncio.Task[None]] = set()
         self._rubbish = 0
 
@@ -224,6 +238,9 @@ class Connection:
             self._outbox.acknowledged()
         elif isinstance(message, ClientPing):
             self._answer(Pong())
+        elif isinstance(message, ClientLook):
+            if self._trainer is not None:
+                self._carry(self._look(self._trainer))
         elif isinstance(message, ClientHalt):
             # beside the queue: a stop never waits for a click's commit
             self._carry(self._halt(message))
@@ -248,7 +265,7 @@ class Connection:
         task.add_done_callback(self._going.discard)
         return task
 
-    async def _judge(self, message: ClientFeedback | ClientRelabel | ClientUndo) -> None:
+    async def _judge(self, message: Request) -> None:
         try:
             if isinstance(message, ClientUndo):
                 feedback = await self._undo(message)
@@ -261,6 +278,7 @@ class Connection:
                     value=message.value,
                     trainer=message.trainer,
                     estimate_shown=message.estimate_shown,
+                    looked=message.looked,
                 )
                 feedback, _ = await self._hub.feedback(message.proposal_id, click, experiment_id=self._experiment_id)
         except Exception as error:  # noqa: BLE001  every error goes back to the viewer in one shape; the stream lives on
@@ -272,7 +290,11 @@ class Connection:
         feedback = await self._store.feedback(message.feedback_id)
         if feedback.experiment_id != self._experiment_id:
             raise NotFound("feedback of this experiment", message.feedback_id)
-        return await self._hub.undo(message.feedback_id)
+        return await self._hub.undo(message.feedback_id, by=self._trainer)
+
+    async def _look(self, trainer: str) -> None:
+        with contextlib.suppress(StoreError):  # it comes again in a moment
+            await self._hub.seats.look(self._experiment_id, trainer)
 
     async def _halt(self, message: ClientHalt) -> None:
         try:
@@ -285,7 +307,7 @@ class Connection:
     def _refuse_rubbish(self, detail: str, request_id: str | None = None) -> None:
         self._rubbish += 1
         details = problem(
-            422, detail, remedy="send one of: feedback, relabel, undo, halt, frame_ack, ping; see docs/api.md"
+            422, detail, remedy="send one of: feedback, look, relabel, undo, halt, frame_ack, ping; see docs/api.md"
         )
         self._answer(Refused(request_id=request_id, problem=details))
 
@@ -298,7 +320,7 @@ class Connection:
             await asyncio.wait_for(self._socket.close(code, reason), FAREWELL_SECONDS)
 
 
-def _id_of(message: ClientFeedback | ClientRelabel | ClientUndo) -> str:
+def _id_of(message: Request) -> str:
     return message.request_id if isinstance(message, ClientUndo) else message.click_id
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from fastapi import APIRouter, Body, Response
+from fastapi import APIRouter, Body, Query, Response
 
 from server.errors import late_feedback
 from server.routes.dependencies import Cursor, Id, Limit, Running, errors
@@ -16,6 +16,9 @@ router = APIRouter(tags=["feedback"])
 CLICK = {"good": {"value": {"click_id": "9f1c2a77-3b1e", "value": 1}}}
 
 CORRECTION = {"bad after all": {"value": {"click_id": "77ab3f02-9c1d", "value": -1}}}
+
+
+Asker = Annotated[str | None, Query(max_length=64, description="who asks: nobody takes back another's click")]
 
 
 @router.post(
@@ -45,14 +48,14 @@ async def give_feedback(
 async def list_feedback_of_proposal(
     service: Running, proposal_id: Id, cursor: Cursor = None, limit: Limit = 50
 ) -> FeedbackPage:
-    """Feedback on one proposal, newest first."""
-    return await service.store.feedback_of_proposal(proposal_id, cursor, limit)
+    """Feedback on one proposal, newest first; what was said is told once it is closed."""
+    return await service.store.feedback_of_proposal(proposal_id, cursor, limit, told=True)
 
 
 @router.get("/experiments/{experiment_id}/feedback", responses=errors(404, 422))
 async def list_feedback(service: Running, experiment_id: Id, cursor: Cursor = None, limit: Limit = 50) -> FeedbackPage:
-    """Feedback of an experiment, newest first, late and undone included."""
-    return await service.store.feedback_of_experiment(experiment_id, cursor, limit)
+    """Feedback of an experiment, newest first, late and undone included; without votes on what is still open."""
+    return await service.store.feedback_of_experiment(experiment_id, cursor, limit, told=True)
 
 
 @router.get("/feedback/{feedback_id}", responses=errors(404, 422))
@@ -83,6 +86,6 @@ async def relabel_feedback(
 
 
 @router.delete("/feedback/{feedback_id}", responses=errors(404, 409, 422))
-async def undo_feedback(service: Running, feedback_id: Id) -> Feedback:
-    """Take back the newest click, while nothing has moved; its proposal is open again."""
-    return await service.hub.undo(feedback_id)
+async def undo_feedback(service: Running, feedback_id: Id, trainer: Asker = None) -> Feedback:
+    """Take back a trainer's newest click, while nothing has moved; its proposal is open again."""
+    return await service.hub.undo(feedback_id, by=trainer)

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Annotated, Any
 
-from fastapi import APIRouter, Request, Response
+from fastapi import APIRouter, Body, Request, Response
 from fastapi.responses import FileResponse
 
 from server.errors import ServiceError
 from server.images import Images
 from server.routes.dependencies import Cursor, Id, Limit, Running, errors
-from server.schemas import Proposal, ProposalPage
+from server.schemas import Next, Proposal, ProposalPage
+from server.schemas_together import NextCreate
 from server.service import Service
 from server.store_errors import NotFound
 
@@ -27,6 +28,19 @@ IMAGE: dict[int | str, dict[str, Any]] = {
 async def list_proposals(service: Running, experiment_id: Id, cursor: Cursor = None, limit: Limit = 50) -> ProposalPage:
     """Proposals of an experiment, newest first."""
     return await service.store.proposals(experiment_id, cursor, limit)
+
+
+@router.post("/experiments/{experiment_id}/next", responses=errors(400, 404, 413, 422))
+async def next_proposal(
+    service: Running,
+    experiment_id: Id,
+    body: Annotated[NextCreate, Body(openapi_examples={"ann": {"value": {"trainer": "ann"}}})],
+) -> Next:
+    """The proposal that this trainer is to judge: of all robots and slots, theirs for a while; asked again, renewed.
+
+    A page hears of it by the stream; this is for clients without one. Whoever asks is there, as long as they go on.
+    """
+    return await service.hub.seats.look(experiment_id, body.trainer)
 
 
 @router.get("/proposals/{proposal_id}", responses=errors(404, 422))

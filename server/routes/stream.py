@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from typing import Annotated, get_args
 
 from fastapi import APIRouter, Body, FastAPI, WebSocket, WebSocketDisconnect
+from starlette.websockets import WebSocketState
 
 from server.errors import problem, problem_of, response
 from server.messages import ClientMessage, FrameHeader, Resumed, StreamEvent
@@ -15,39 +17,53 @@ from server.stream import Connection
 
 router = APIRouter()
 
+_trainer_name = re.compile(r"[^\x00-\x1f\x7f]{1,64}")
+
 
 @router.websocket("/experiments/{experiment_id}/stream")
-async def stream(socket: WebSocket, experiment_id: str, boot_id: str = "", since: str = "") -> None:
-    """A snapshot, or what was missed since the event `since` of this `boot_id`; then everything that happens."""
+async def stream(socket: WebSocket, experiment_id: str, boot_id: str = "", since: str = "", trainer: str = "") -> None:
+    """A snapshot, or what was missed since the event `since` of this `boot_id`; then everything that happens.
+
+    trainer: who sits at this page to judge, and gets proposals; left out: somebody who watches.
+    """
     service: Service = socket.app.state.service
     if not experiment_id.isascii() or not experiment_id.isdigit() or int(experiment_id[:20]) > LARGEST_ID:
         details = problem(404, f"there is no experiment {experiment_id[:40]!r}", remedy="see GET /api/v1/experiments")
         await socket.send_denial_response(response(details))
         return
     watched = int(experiment_id)
+    if trainer and not _trainer_name.fullmatch(trainer):
+        details = problem(
+            422, "trainer: is no name", remedy="give 1 to 64 characters, none of them a control character"
+        )
+        await socket.send_denial_response(response(details))
+        return
     same_run = boot_id == socket.app.state.boot_id and since.isascii() and since.isdigit()
     # first listen, then look: whatever happens while the snapshot is read comes after it, some of it twice,
     # and every event carries the whole of what it is about, so twice is harmless
     with service.rooms.join(watched) as outbox:
         newest = service.rooms.newest(watched)
         missed = service.rooms.missed(watched, int(since[:20])) if same_run else None
+        connection = Connection(socket, outbox, service.hub, service.store, watched, trainer=trainer or None)
         try:
-            if missed is None:
-                snapshot = await service.hub.snapshot(watched, socket.app.state.boot_id)
-                first = [snapshot.model_copy(update={"seq": newest}).model_dump_json()]
-            else:
-                await service.store.experiment(watched)
-                first = [Resumed(seq=newest, missed=len(missed)).model_dump_json(), *missed]
+            async with service.hub.seats.seated(watched, trainer or None):
+                if missed is None:
+                    snapshot = await service.hub.snapshot(watched, socket.app.state.boot_id, trainer or None)
+                    first = [snapshot.model_copy(update={"seq": newest}).model_dump_json()]
+                else:
+                    await service.store.experiment(watched)
+                    first = [Resumed(seq=newest, missed=len(missed)).model_dump_json(), *missed]
+                await socket.accept()
+                for message in first:
+                    await socket.send_text(message)
+                await connection.serve()
         except StoreError as error:
-            await socket.send_denial_response(response(problem_of(error)))
-            return
-        await socket.accept()
-        try:
-            for message in first:
-                await socket.send_text(message)
+            if socket.application_state is WebSocketState.CONNECTING:
+                await socket.send_denial_response(response(problem_of(error)))
+            else:
+                raise
         except WebSocketDisconnect:
             return
-        await Connection(socket, outbox, service.hub, service.store, watched).serve()
 
 
 def document(app: FastAPI) -> None:

@@ -20,7 +20,8 @@ from typing import Any
 import numpy as np
 
 from agent.affordance import near
-from agent.algorithm import AgentError, Algorithm, AlgorithmFactory, DeviceName, Label, Pausing, Problem
+from agent.algorithm import AgentError, Algorithm, AlgorithmFactory, DeviceName, Label, Pausing, Problem, Suggestion
+from agent.batching import propose_batch
 from robot_adapters import registry
 from robot_adapters.base import InvalidCall, SkillCall, check_call
 from robot_adapters.tasks.base import Task, entry_names, position_fields, state_bounds
@@ -108,14 +109,15 @@ class Learner:
 
     def propose(self, *, state: list[float], deterministic: bool) -> dict[str, Any]:
         """Suggest a call."""
-        s = self.algorithm.propose(np.array(state, dtype=np.float64), deterministic=deterministic)
-        return {
-            "skill": s.call.skill,
-            "parameters": [float(p) for p in s.call.parameters],
-            "predicted_feedback": float(s.predicted_feedback),
-            "uncertainty": None if s.uncertainty is None else float(s.uncertainty),
-            "skill_probabilities": {k: float(v) for k, v in s.skill_probabilities.items()},
-        } | self._status()
+        suggestion = self.algorithm.propose(np.array(state, dtype=np.float64), deterministic=deterministic)
+        return _wire(suggestion) | self._status()
+
+    def propose_batch(self, *, state: list[float], count: int, pending: list[dict[str, Any]]) -> dict[str, Any]:
+        """Suggest at most so many different calls, none of them like one that is pending (see `agent.batching`)."""
+        waiting = [SkillCall(call["skill"], tuple(call["parameters"])) for call in pending]
+        seen = np.array(state, dtype=np.float64)
+        found = propose_batch(self.algorithm, self._task.skills, seen, count, waiting)
+        return {"suggestions": [_wire(suggestion) for suggestion in found]} | self._status()
 
     def add(self, *, labels: list[dict[str, Any]]) -> dict[str, Any]:
         """Take new labels; the steps they owe come later."""
@@ -190,7 +192,7 @@ class Learner:
 def serve(pipes: Pipes) -> None:
     """Answer requests until the server is gone; take gradient steps in between."""
     learner = Learner()
-    names = ("configure", "propose", "add", "restore", "forget", "relabel", "flush", "save", "load")
+    names = ("configure", "propose", "propose_batch", "add", "restore", "forget", "relabel", "flush", "save", "load")
     handlers = {name: getattr(learner, name) for name in names}
     commands = pipes.commands
     flushes: list[Mapping[str, Any]] = []
@@ -207,7 +209,7 @@ def serve(pipes: Pipes) -> None:
     def propose_meanwhile() -> None:
         while not early and commands.poll(0):
             request = receive()
-            if request is not None and request["command"] == "propose":
+            if request is not None and request["command"] in ("propose", "propose_batch"):
                 reply(request)
             else:
                 early.append(request)
@@ -229,6 +231,17 @@ def serve(pipes: Pipes) -> None:
                 flushes.append(received)
             else:
                 reply(received)
+
+
+def _wire(suggestion: Suggestion) -> dict[str, Any]:
+    s = suggestion
+    return {
+        "skill": s.call.skill,
+        "parameters": [float(p) for p in s.call.parameters],
+        "predicted_feedback": float(s.predicted_feedback),
+        "uncertainty": None if s.uncertainty is None else float(s.uncertainty),
+        "skill_probabilities": {k: float(v) for k, v in s.skill_probabilities.items()},
+    }
 
 
 def _label(task: Task, stored: Mapping[str, Any]) -> Label:

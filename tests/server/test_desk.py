@@ -21,13 +21,12 @@ async def test_an_undo_across_the_critics_approval_tells_everyone_that_it_is_clo
         await s.store.begin_episode(experiment.id, 0)
         desk = (await s.hub._runner(experiment.id)).stations[0].desk
         await desk.present(new(experiment.id, x=0.5))
-        clicked = desk.open
-        assert clicked is not None
+        (clicked,) = desk.opened
         feedback = await s.judge(clicked, -1)
         await desk.present(new(experiment.id, x=0.51, **SURE))
         await desk.consider(simulated=True)
-        approved = desk.judged
-        assert approved is not None
+        refused, approved = desk.judged
+        assert refused.id == clicked.id
         assert approved.verdict_source is VerdictSource.CRITIC
 
         at = s.now
@@ -35,9 +34,8 @@ async def test_an_undo_across_the_critics_approval_tells_everyone_that_it_is_clo
         told = [e for e in s.seen.events[at:] if isinstance(e, (FeedbackUndone, ProposalClosed, ProposalOpened))]
         assert [event.type for event in told] == ["feedback_undone", "proposal_closed", "proposal_opened"]
         assert told[1] == ProposalClosed(proposal=approved)
-        assert desk.judged is None
-        assert desk.open is not None
-        assert desk.open.id == clicked.id
+        assert desk.judged == []
+        assert [proposal.id for proposal in desk.opened] == [clicked.id]
         # nothing moved by it, so it doesn't count
         assert (await s.hub.view(experiment.id)).counters.auto_approved == 0
 
@@ -49,11 +47,10 @@ async def test_an_undo_of_the_click_that_waits_for_the_gate_only_opens_its_propo
         await s.store.begin_episode(experiment.id, 0)
         desk = (await s.hub._runner(experiment.id)).stations[0].desk
         await desk.present(new(experiment.id))
-        assert desk.open is not None
-        feedback = await s.judge(desk.open, 1)
-        assert desk.judged is not None
+        feedback = await s.judge(desk.opened[0], 1)
+        assert len(desk.judged) == 1
         at = s.now
         await s.hub.undo(feedback.id)
         assert not [event for event in s.seen.events[at:] if isinstance(event, ProposalClosed)]
-        assert desk.judged is None
-        assert desk.open is not None
+        assert desk.judged == []
+        assert len(desk.opened) == 1

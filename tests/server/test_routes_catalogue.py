@@ -41,7 +41,6 @@ WRONG: list[tuple[dict[str, Any], str, str]] = [
         "adapter_settings.layout.x",
         "toy_y",
     ),
-    ({"aggregation": "majority"}, "aggregation", "first"),
     ({"aggregation": "loudest"}, "aggregation", ""),
     ({"mode": "fly"}, "mode", ""),
     ({"seed": -1}, "seed", ""),

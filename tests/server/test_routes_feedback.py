@@ -43,7 +43,9 @@ async def test_a_late_click_is_kept_and_refused(tmp_path: Path) -> None:
         assert told.type == "/problems/late-feedback"
         kept = told.model_dump()["feedback"]
         assert (kept["click_id"], kept["status"], kept["value"]) == (click["click_id"], "late", 1)
-        assert (await live.http.get(f"/api/v1/feedback/{kept['id']}")).json() == kept
+        assert kept["late_because"] == "it was judged neutral before this click came"
+        assert kept["late_because"] in told.detail
+        assert (await live.http.get(f"/api/v1/feedback/{kept['id']}")).json() == kept | {"late_because": None}
         assert check_problem(await live.http.post(address, json=click), 409).model_dump()["feedback"] == kept
         counters = (await live.http.get(f"/api/v1/experiments/{experiment}")).json()["counters"]
         assert (counters["feedback"], counters["late"]) == (1, 1)

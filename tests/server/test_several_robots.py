@@ -69,7 +69,10 @@ async def test_while_one_robot_moves_others_are_judged_and_a_stop_reaches_them_a
         assert second.observation_id == first[1].observation_id
         snapshot = await s.hub.snapshot(experiment.id, "boot")
         assert [e.id for e in snapshot.executions] == [running.id]
-        assert snapshot.proposal == snapshot.proposals[0] == first[2]
+        assert snapshot.proposal is not None
+        assert snapshot.proposal == snapshot.proposals[0]
+        # what nobody was there for is for whoever has come since
+        assert snapshot.proposal == first[2].model_copy(update={"electorate": ["local"]})
 
         # and its motion is none since which the click on another robot's proposal can't be taken back
         assert snapshot.undoable is not None

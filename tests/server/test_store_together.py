@@ -67,7 +67,7 @@ async def test_the_first_that_is_approved_closes_the_others_whose_votes_still_tr
     assert await store.open_proposals(experiment_id) == []
     late = await voted(store, first, bob=1)
     assert late.feedback.status is FeedbackStatus.LATE
-    assert late.late_because == f"another proposal, number {second.number}, was approved first"
+    assert late.feedback.late_because == f"another proposal, number {second.number}, was approved first"
     # nothing of them ever moves the robot, not even from the same view
     await ended(store, execution)
     for other in (first, third):
@@ -212,7 +212,7 @@ async def test_a_click_on_what_isnt_shown_any_more_is_kept_and_decides_nothing(
     looked = Looked(observation_id=observation, policy_version=version)
     stale = await store.submit_feedback(proposal.id, click(1).model_copy(update={"looked": looked}))
     assert (stale.feedback.status, stale.closed) == (FeedbackStatus.LATE, None)
-    assert stale.late_because is not None
+    assert stale.feedback.late_because is not None
     assert await store.open_proposals(experiment_id) == [proposal]
     fresh = Looked(observation_id="o1", policy_version=7)
     assert (await store.submit_feedback(proposal.id, click(1).model_copy(update={"looked": fresh}))).closed is not None

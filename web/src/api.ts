@@ -473,6 +473,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/experiments/{experiment_id}/next": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Next Proposal
+         * @description The proposal that this trainer is to judge: of all robots and slots, theirs for a while; asked again, renewed.
+         *
+         *     A page hears of it by the stream; this is for clients without one. Whoever asks is there, as long as they go on.
+         */
+        post: operations["next_proposal"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/proposals/{proposal_id}": {
         parameters: {
             query?: never;
@@ -522,7 +544,7 @@ export interface paths {
         };
         /**
          * List Feedback Of Proposal
-         * @description Feedback on one proposal, newest first.
+         * @description Feedback on one proposal, newest first; what was said is told once it is closed.
          */
         get: operations["list_feedback_of_proposal"];
         put?: never;
@@ -546,7 +568,7 @@ export interface paths {
         };
         /**
          * List Feedback
-         * @description Feedback of an experiment, newest first, late and undone included.
+         * @description Feedback of an experiment, newest first, late and undone included; without votes on what is still open.
          */
         get: operations["list_feedback"];
         put?: never;
@@ -573,7 +595,7 @@ export interface paths {
         post?: never;
         /**
          * Undo Feedback
-         * @description Take back the newest click, while nothing has moved; its proposal is open again.
+         * @description Take back a trainer's newest click, while nothing has moved; its proposal is open again.
          */
         delete: operations["undo_feedback"];
         options?: never;
@@ -1353,6 +1375,26 @@ export interface webhooks {
         patch?: never;
         trace?: never;
     };
+    "stream-event/proposal_changed": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Event proposal_changed
+         * @description Somebody has voted on an open proposal, or its electorate is another; what was said is told once it is closed.
+         */
+        post: operations["event_proposal_changed"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "stream-event/proposal_closed": {
         parameters: {
             query?: never;
@@ -1373,6 +1415,26 @@ export interface webhooks {
         patch?: never;
         trace?: never;
     };
+    "stream-event/judges_changed": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Event judges_changed
+         * @description Who is there to judge, and which open proposal each has before them.
+         */
+        post: operations["event_judges_changed"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "stream-event/feedback_stored": {
         parameters: {
             query?: never;
@@ -1384,7 +1446,9 @@ export interface webhooks {
         put?: never;
         /**
          * Event feedback_stored
-         * @description A click is committed. `undoable` says whether it can still be undone.
+         * @description A click is committed, and its proposal closed by it. `undoable` says whether it can still be undone.
+         *
+         *     While others are still asked, only who has clicked is told (`proposal_changed`), and the answer goes to them.
          */
         post: operations["event_feedback_stored"];
         delete?: never;
@@ -1991,6 +2055,7 @@ export interface components {
              * @description whether the page showed the predicted feedback when it was clicked; null: it wasn't told
              */
             estimate_shown?: boolean | null;
+            looked?: components["schemas"]["Looked"] | null;
         };
         /**
          * ClientFrameAck
@@ -2018,6 +2083,17 @@ export interface components {
              * @description made by the client, unique per click; the same id again is acknowledged again and stored once
              */
             request_id: string;
+        };
+        /**
+         * ClientLook
+         * @description The trainer of this connection looks at their proposal: it stays theirs.
+         */
+        ClientLook: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "look";
         };
         /**
          * ClientPing
@@ -2759,6 +2835,11 @@ export interface components {
              * @description whether the page showed the predicted feedback when it was clicked; null: it wasn't told
              */
             estimate_shown: boolean | null;
+            /**
+             * Late Because
+             * @description why it didn't count, in words; told to its sender
+             */
+            late_because: string | null;
         };
         /**
          * FeedbackCreate
@@ -2825,7 +2906,9 @@ export interface components {
         FeedbackStatus: "stored" | "late" | "practice";
         /**
          * FeedbackStored
-         * @description A click is committed. `undoable` says whether it can still be undone.
+         * @description A click is committed, and its proposal closed by it. `undoable` says whether it can still be undone.
+         *
+         *     While others are still asked, only who has clicked is told (`proposal_changed`), and the answer goes to them.
          */
         FeedbackStored: {
             /**
@@ -3078,6 +3161,54 @@ export interface components {
             items: components["schemas"]["Incident"][];
         };
         /**
+         * Judge
+         * @description A trainer who is there, and what they have before them.
+         */
+        Judge: {
+            /** Trainer */
+            trainer: string;
+            /**
+             * Proposal Id
+             * @description the open proposal that is theirs to judge
+             */
+            proposal_id: number | null;
+            /**
+             * Until
+             * @description when it goes back, without a sign that they look at it
+             */
+            until: string | null;
+            /**
+             * Here
+             * @description whether a page of theirs is connected
+             * @default true
+             */
+            here: boolean;
+            /**
+             * Away
+             * @description connected, but without a sign of life for longer than a lease
+             * @default false
+             */
+            away: boolean;
+        };
+        /**
+         * JudgesChanged
+         * @description Who is there to judge, and which open proposal each has before them.
+         */
+        JudgesChanged: {
+            /**
+             * Seq
+             * @description the event's number in the experiment's stream, from 1 since the service started (`boot_id`); null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear what was missed
+             */
+            seq: number | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "judges_changed";
+            /** Judges */
+            judges: components["schemas"]["Judge"][];
+        };
+        /**
          * LabelQuality
          * @description Everybody's figures, and how far they agree.
          */
@@ -3159,6 +3290,26 @@ export interface components {
          * @enum {string}
          */
         Mode: "propose_only" | "execute_approved";
+        /**
+         * Next
+         * @description What a trainer is to judge, of all robots and slots; theirs until `judge.until`.
+         */
+        Next: {
+            /** @description null: nothing waits for them now; ask again */
+            proposal: components["schemas"]["Proposal"] | null;
+            judge: components["schemas"]["Judge"];
+        };
+        /**
+         * NextCreate
+         * @description Ask for the next proposal.
+         */
+        NextCreate: {
+            /**
+             * Trainer
+             * @default local
+             */
+            trainer: string;
+        };
         /**
          * NoFields
          * @description The body of a verb that takes none: a field that is meant to do something is refused, not ignored.
@@ -3654,6 +3805,23 @@ export interface components {
             purpose: "training" | "evaluation";
         };
         /**
+         * ProposalChanged
+         * @description Somebody has voted on an open proposal, or its electorate is another; what was said is told once it is closed.
+         */
+        ProposalChanged: {
+            /**
+             * Seq
+             * @description the event's number in the experiment's stream, from 1 since the service started (`boot_id`); null where only this connection hears it. Connect again with `?boot_id=...&since=<the last seq>` to hear what was missed
+             */
+            seq: number | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "proposal_changed";
+            proposal: components["schemas"]["Proposal"];
+        };
+        /**
          * ProposalClosed
          * @description A proposal is closed; `proposal.verdict`, `.close_reason` and `.gate` say how.
          */
@@ -3993,9 +4161,15 @@ export interface components {
             proposal: components["schemas"]["Proposal"] | null;
             /**
              * Proposals
-             * @description every open proposal, one a robot at most, oldest first
+             * @description every open proposal, one a slot of a robot, oldest first
              */
             proposals: components["schemas"]["Proposal"][];
+            /**
+             * Judges
+             * @description who is there to judge, and at what
+             * @default []
+             */
+            judges: components["schemas"]["Judge"][];
             /** @description the oldest running execution, if any */
             execution: components["schemas"]["Execution"] | null;
             /**
@@ -4003,7 +4177,7 @@ export interface components {
              * @description every running execution, oldest first
              */
             executions: components["schemas"]["Execution"][];
-            /** @description the newest feedback, while it can be undone */
+            /** @description this trainer's newest feedback, while it can be undone */
             undoable: components["schemas"]["Feedback"] | null;
             /**
              * Robots
@@ -6505,6 +6679,95 @@ export interface operations {
             };
         };
     };
+    next_proposal: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                experiment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NextCreate"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Next"];
+                };
+            };
+            /** @description The body is no JSON, or nested too deeply */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     get_proposal: {
         parameters: {
             query?: never;
@@ -6967,7 +7230,10 @@ export interface operations {
     };
     undo_feedback: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description who asks: nobody takes back another's click */
+                trainer?: string | null;
+            };
             header?: never;
             path: {
                 feedback_id: number;
@@ -9346,7 +9612,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["Snapshot"] | components["schemas"]["Resumed"] | components["schemas"]["ExperimentChanged"] | components["schemas"]["ProposalOpened"] | components["schemas"]["ProposalClosed"] | components["schemas"]["FeedbackStored"] | components["schemas"]["FeedbackUndone"] | components["schemas"]["FeedbackRelabelled"] | components["schemas"]["ExecutionStarted"] | components["schemas"]["ExecutionEnded"] | components["schemas"]["MetricsAdded"] | components["schemas"]["WorkerChanged"] | components["schemas"]["RobotTold"] | components["schemas"]["AttendanceChanged"] | components["schemas"]["IncidentKept"] | components["schemas"]["EvaluationChanged"] | components["schemas"]["Acknowledged"] | components["schemas"]["Refused"] | components["schemas"]["Pong"];
+                "application/json": components["schemas"]["Snapshot"] | components["schemas"]["Resumed"] | components["schemas"]["ExperimentChanged"] | components["schemas"]["ProposalOpened"] | components["schemas"]["ProposalChanged"] | components["schemas"]["ProposalClosed"] | components["schemas"]["JudgesChanged"] | components["schemas"]["FeedbackStored"] | components["schemas"]["FeedbackUndone"] | components["schemas"]["FeedbackRelabelled"] | components["schemas"]["ExecutionStarted"] | components["schemas"]["ExecutionEnded"] | components["schemas"]["MetricsAdded"] | components["schemas"]["WorkerChanged"] | components["schemas"]["RobotTold"] | components["schemas"]["AttendanceChanged"] | components["schemas"]["IncidentKept"] | components["schemas"]["EvaluationChanged"] | components["schemas"]["Acknowledged"] | components["schemas"]["Refused"] | components["schemas"]["Pong"];
             };
         };
         responses: {
@@ -9390,7 +9656,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["ClientFeedback"] | components["schemas"]["ClientRelabel"] | components["schemas"]["ClientUndo"] | components["schemas"]["ClientHalt"] | components["schemas"]["ClientFrameAck"] | components["schemas"]["ClientPing"];
+                "application/json": components["schemas"]["ClientFeedback"] | components["schemas"]["ClientLook"] | components["schemas"]["ClientRelabel"] | components["schemas"]["ClientUndo"] | components["schemas"]["ClientHalt"] | components["schemas"]["ClientFrameAck"] | components["schemas"]["ClientPing"];
             };
         };
         responses: {
@@ -9491,6 +9757,28 @@ export interface operations {
             };
         };
     };
+    event_proposal_changed: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ProposalChanged"];
+            };
+        };
+        responses: {
+            /** @description Sent over the WebSocket; there is no answer to it */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
     event_proposal_closed: {
         parameters: {
             query?: never;
@@ -9501,6 +9789,28 @@ export interface operations {
         requestBody: {
             content: {
                 "application/json": components["schemas"]["ProposalClosed"];
+            };
+        };
+        responses: {
+            /** @description Sent over the WebSocket; there is no answer to it */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    event_judges_changed: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["JudgesChanged"];
             };
         };
         responses: {

@@ -119,6 +119,7 @@ export function feedback(proposalId: number, change: Partial<Feedback> = {}): Fe
     received_at: AT,
     undone_at: null,
     estimate_shown: null,
+    late_because: null,
     ...change,
   };
 }
@@ -154,6 +155,7 @@ export function snapshot(
     proposals: change.proposal ? [change.proposal] : [],
     executions: change.execution ? [change.execution] : [],
     undoable: null,
+    judges: [],
     robots: [],
     operator: null,
     server_time: AT,

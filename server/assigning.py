@@ -1,0 +1,50 @@
+"""Which proposal each trainer gets: one queue of all robots and slots. Pure functions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from server.schemas import Aggregation, Proposal
+
+MOST_SLOTS = 16
+"""Open proposals of one robot at most: more trainers than that share them."""
+
+
+def may_judge(trainer: str, proposal: Proposal, rule: Aggregation) -> bool:
+    """Whether this trainer's vote on an open proposal is still asked for."""
+    if proposal.closed_at is not None or trainer in proposal.heard:
+        return False
+    return rule is Aggregation.FIRST or not proposal.electorate or trainer in proposal.electorate
+
+
+def is_exclusive(rule: Aggregation, *, parallel: bool) -> bool:
+    """Whether a proposal is only for the one who has it: one vote decides, and there are others for the others."""
+    return parallel and rule is Aggregation.FIRST
+
+
+def choose(
+    trainer: str,
+    opened: Sequence[Proposal],
+    held: Mapping[str, int],
+    rule: Aggregation,
+    *,
+    parallel: bool,
+) -> Proposal | None:
+    """The proposal for a trainer who has none: one that nobody is at, else the one with the fewest at it.
+
+    Of those alike the one whose verdict is nearest, else the oldest. None where nothing is left for them.
+
+    held: trainer -> id of the proposal that they have.
+    """
+    at = {p.id: sum(held_id == p.id for name, held_id in held.items() if name != trainer) for p in opened}
+    theirs = [p for p in opened if may_judge(trainer, p, rule)]
+    if is_exclusive(rule, parallel=parallel):
+        theirs = [p for p in theirs if not at[p.id]]
+    return min(theirs, key=lambda p: (at[p.id], -len(p.heard), p.number), default=None)
+
+
+def wanted(trainers: int, standing: int, *, parallel: bool) -> int:
+    """How many proposals of one robot are to be open, where so many trainers share so many robots that stand still."""
+    if not parallel:
+        return 1
+    return max(1, min(MOST_SLOTS, -(-trainers // max(1, standing))))

@@ -1,0 +1,225 @@
+"""Who is there to judge an experiment, and which proposal each has before them: seats, and leases on proposals.
+
+A trainer is seated by a connection, or, without one, by asking for a proposal or by clicking. Two connections of one
+trainer are one seat. A lease is renewed by every sign that they look; where it runs out the proposal goes back to the
+others, and they get one again as soon as they are back. All of it is in memory: what is open doesn't outlive a restart.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime, timedelta
+
+from server import assigning
+from server.messages import JudgesChanged, StreamEvent
+from server.schemas import Aggregation, Proposal
+from server.schemas_together import Judge, Together
+
+
+@dataclass
+class Seat:
+    """One trainer. Times are of the monotonic clock, s.
+
+    connections: how many pages are open. left: since when none is; it stays None while one is.
+    away: they had something before them and showed no sign of life for as long as a lease, or closed their pages.
+    counts: whether their clicks do; who has to practise first gets no proposal.
+    """
+
+    looked: float
+    connections: int = 0
+    left: float | None = None
+    proposal: int | None = None
+    away: bool = False
+    counts: bool = True
+
+
+class Seating:
+    """The seats of one experiment. Used from the event loop only; nothing in it waits."""
+
+    def __init__(self, publish: Callable[[StreamEvent], None], *, clock: Callable[[], float] = time.monotonic) -> None:
+        self._publish = publish
+        self._clock = clock
+        self._seats: dict[str, Seat] = {}
+        self._timer: asyncio.TimerHandle | None = None
+        self._told: list[Judge] = []
+        self._rule, self._together = Aggregation.FIRST, Together()
+        self.opened: Callable[[], Sequence[Proposal]] = list
+        """The open proposals of all robots."""
+        self.on_change: Callable[[], None] = lambda: None
+        """Called when another number of proposals may be wanted."""
+        self.on_arrived: Callable[[], None] = lambda: None
+        """Called when somebody has come who may judge."""
+        self.on_vanished: Callable[[list[str]], None] = lambda _: None
+        """Called with the trainers who are gone for good."""
+
+    # --- what others ask ----------------------------------------------------------------------------------------
+
+    @property
+    def judges(self) -> list[Judge]:
+        """Everyone who is there, and what they have before them."""
+        return [self._judge(name, seat) for name, seat in sorted(self._seats.items())]
+
+    @property
+    def names(self) -> list[str]:
+        """Who is there, or has been until just now, and may judge: an electorate."""
+        return sorted(name for name, seat in self._seats.items() if seat.counts)
+
+    def wanted(self, standing: int) -> int:
+        """How many proposals of one robot are to be open, where so many robots stand still."""
+        busy = sum(seat.counts and not seat.away for seat in self._seats.values())
+        return assigning.wanted(busy, standing, parallel=self._together.parallel)
+
+    def proposal_of(self, trainer: str) -> int | None:
+        """What this trainer has before them."""
+        seat = self._seats.get(trainer)
+        return None if seat is None else seat.proposal
+
+    def others_at(self, trainer: str) -> set[int]:
+        """What others have, where each has a proposal of their own."""
+        if not self._together.parallel:
+            return set()
+        return {seat.proposal for name, seat in self._seats.items() if name != trainer and seat.proposal is not None}
+
+    def why_not(self, trainer: str, proposal: Proposal) -> str | None:
+        """Why a click of this trainer on an open proposal can't count: it is with somebody else."""
+        if not assigning.is_exclusive(self._rule, parallel=self._together.parallel):
+            return None
+        if self.proposal_of(trainer) == proposal.id:
+            return None
+        holder = next((name for name, seat in self._seats.items() if seat.proposal == proposal.id), None)
+        return None if holder is None else f"it is before {holder} now, and waits for what they say of it"
+
+    # --- what happens -------------------------------------------------------------------------------------------
+
+    def follow(self, rule: Aggregation, together: Together) -> None:
+        """Go by these settings from now on."""
+        if (rule, together) != (self._rule, self._together):
+            self._rule, self._together = rule, together
+            self._settle()
+
+    def arrive(self, trainer: str, *, counts: bool = True) -> None:
+        """A page of theirs is open."""
+        seat = self._seated(trainer)
+        seat.connections += 1
+        seat.left, seat.looked, seat.away, seat.counts = None, self._clock(), False, counts
+        self._settle(arrived=True)
+
+    def depart(self, trainer: str) -> None:
+        """One of their pages is closed: what they have goes back, and after a while they are waited for no longer."""
+        seat = self._seats.get(trainer)
+        if seat is None or not seat.connections:
+            return
+        seat.connections -= 1
+        if not seat.connections:
+            seat.left, seat.away, seat.proposal = self._clock(), True, None
+            self._settle()
+
+    def look(self, trainer: str, *, counts: bool = True) -> None:
+        """A sign that they are at it, from a page or without one."""
+        arrived = trainer not in self._seats
+        seat = self._seated(trainer)
+        arrived |= counts and not seat.counts
+        seat.looked, seat.away, seat.counts = self._clock(), False, counts
+        if not seat.connections:
+            seat.left = self._clock()
+        self._settle(arrived=arrived)
+
+    def give(self, trainer: str, proposal_id: int) -> None:
+        """Put a proposal before them that they have just opened again."""
+        seat = self._seated(trainer)
+        if not seat.connections and seat.left is None:
+            seat.left = self._clock()
+        seat.looked, seat.away, seat.proposal = self._clock(), False, proposal_id
+        self._settle()
+
+    def deal(self) -> None:
+        """Give everyone something who has nothing that waits for them, as far as there is something."""
+        opened = {p.id: p for p in self.opened()}
+        exclusive = assigning.is_exclusive(self._rule, parallel=self._together.parallel)
+        taken: set[int] = set()
+        for name, seat in self._seats.items():
+            mine = opened.get(seat.proposal) if seat.proposal is not None else None
+            if (
+                mine is None
+                or not seat.counts
+                or not assigning.may_judge(name, mine, self._rule)
+                or (exclusive and mine.id in taken)
+            ):
+                seat.proposal = None
+            else:
+                taken.add(mine.id)
+        held = {name: seat.proposal for name, seat in self._seats.items() if seat.proposal is not None}
+        for name, seat in self._seats.items():
+            if seat.proposal is None and seat.counts and not seat.away:
+                found = assigning.choose(
+                    name, list(opened.values()), held, self._rule, parallel=self._together.parallel
+                )
+                if found is not None:
+                    seat.proposal = held[name] = found.id
+                    seat.looked = self._clock()
+        self._wind()
+        self._tell()
+
+    # --- inside -------------------------------------------------------------------------------------------------
+
+    def _seated(self, trainer: str) -> Seat:
+        return self._seats.setdefault(trainer, Seat(looked=self._clock()))
+
+    def _due(self, seat: Seat) -> float:
+        """When what they have goes back."""
+        return seat.looked + self._together.lease_seconds
+
+    def _settle(self, *, arrived: bool = False) -> None:
+        if arrived:
+            self.on_arrived()
+        self.deal()
+        self.on_change()
+
+    def _wind(self) -> None:
+        """Have the clock ring when the next lease runs out, or somebody has been gone for long enough."""
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
+        due = [self._due(seat) for seat in self._seats.values() if seat.proposal is not None]
+        due += [s.left + self._together.vanish_seconds for s in self._seats.values() if s.left is not None]
+        if due:
+            wait = max(0.0, min(due) - self._clock())
+            self._timer = asyncio.get_running_loop().call_later(wait, self.ring)
+
+    def ring(self) -> None:
+        """Take back what nobody looks at, and let go of those who are gone."""
+        now = self._clock()
+        for seat in self._seats.values():
+            if seat.proposal is not None and self._due(seat) <= now:
+                seat.away, seat.proposal = True, None
+        gone = [
+            name
+            for name, seat in self._seats.items()
+            if seat.left is not None and seat.left + self._together.vanish_seconds <= now
+        ]
+        for name in gone:
+            del self._seats[name]
+        if gone:
+            self.on_vanished(gone)
+        self._settle()
+
+    def _judge(self, name: str, seat: Seat) -> Judge:
+        until = None
+        if seat.proposal is not None:
+            left = max(0.0, self._due(seat) - self._clock())
+            until = datetime.now(UTC) + timedelta(seconds=round(left))
+        return Judge(trainer=name, proposal_id=seat.proposal, until=until, here=seat.left is None, away=seat.away)
+
+    def _tell(self) -> None:
+        now = self.judges
+        if _facts(now) != _facts(self._told):
+            self._told = now
+            self._publish(JudgesChanged(judges=now))
+
+
+def _facts(judges: Sequence[Judge]) -> list[Judge]:
+    """Without the times, which change with every look."""
+    return [judge.model_copy(update={"until": None}) for judge in judges]

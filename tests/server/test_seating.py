@@ -1,0 +1,208 @@
+"""Who gets which proposal, and for how long: the pure rules, and the seats by a clock of the test's own."""
+
+from __future__ import annotations
+
+import asyncio
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+
+import pytest
+
+from server.assigning import MOST_SLOTS, choose, may_judge, wanted
+from server.messages import JudgesChanged, StreamEvent
+from server.schemas import Aggregation, Proposal
+from server.schemas_together import Together
+from server.seating import Seating
+
+FIRST, MAJORITY = Aggregation.FIRST, Aggregation.MAJORITY
+ALL = ("ann", "bob", "cyd")
+
+
+def proposal(
+    number: int, *, electorate: tuple[str, ...] = ALL, heard: tuple[str, ...] = (), robot: int = 0
+) -> Proposal:
+    return Proposal(
+        id=number,
+        experiment_id=1,
+        robot=0,
+        episode=1,
+        number=number,
+        observation_id="o1",
+        state=[0.0],
+        skill="pick",
+        parameters={},
+        digest="d",
+        predicted_feedback=0.0,
+        skill_probabilities={},
+        policy_version=0,
+        views=[],
+        opened_at=datetime.now(UTC),
+        electorate=list(electorate),
+        heard=list(heard),
+    )
+
+
+def test_each_gets_what_nobody_is_at_oldest_first() -> None:
+    opened = [proposal(1), proposal(2), proposal(3)]
+    found = choose("ann", opened, {}, FIRST, parallel=True)
+    assert found is not None
+    assert found.id == 1
+    found = choose("bob", opened, {"ann": 1, "cyd": 2}, FIRST, parallel=True)
+    assert found is not None
+    assert found.id == 3
+    # one vote decides, so in parallel two are never at the same one; else they share
+    assert choose("bob", opened[:1], {"ann": 1}, FIRST, parallel=True) is None
+    for rule, parallel in ((FIRST, False), (MAJORITY, True), (MAJORITY, False)):
+        found = choose("bob", opened[:1], {"ann": 1}, rule, parallel=parallel)
+        assert found is not None
+
+
+def test_of_many_the_one_whose_verdict_is_nearest_is_asked_about() -> None:
+    opened = [proposal(1), proposal(2, heard=("bob",))]
+    found = choose("ann", opened, {}, MAJORITY, parallel=True)
+    assert found is not None
+    assert found.id == 2
+
+
+def test_nobody_is_asked_twice_nor_a_stranger_whose_vote_would_not_count() -> None:
+    assert not may_judge("ann", proposal(1, heard=("ann",)), FIRST)
+    assert not may_judge("eve", proposal(1), MAJORITY)
+    assert may_judge("eve", proposal(1), FIRST)
+    assert may_judge("eve", proposal(1, electorate=()), MAJORITY)
+    closed = proposal(1).model_copy(update={"closed_at": datetime.now(UTC)})
+    assert not may_judge("ann", closed, FIRST)
+
+
+@pytest.mark.parametrize(
+    ("trainers", "standing", "parallel", "expected"),
+    [
+        *((0, 1, True, 1), (1, 1, True, 1), (5, 1, True, 5), (5, 2, True, 3), (5, 0, True, 5)),
+        *((99, 1, True, MOST_SLOTS), (5, 1, False, 1), (0, 0, False, 1)),
+    ],
+)
+def test_as_many_are_open_as_there_are_trainers_for_them(
+    trainers: int, standing: int, parallel: bool, expected: int
+) -> None:
+    assert wanted(trainers, standing, parallel=parallel) == expected
+
+
+@dataclass
+class Room:
+    """Seats whose clock the test turns."""
+
+    together: Together
+    rule: Aggregation = FIRST
+    now: float = 0.0
+    opened: list[Proposal] = field(default_factory=list)
+    vanished: list[str] = field(default_factory=list)
+    told: list[StreamEvent] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.seats = Seating(self.told.append, clock=lambda: self.now)
+        self.seats.opened = lambda: self.opened
+        self.seats.on_vanished = self.vanished.extend
+        self.seats.follow(self.rule, self.together)
+
+    def later(self, seconds: float) -> None:
+        self.now += seconds
+        self.seats.ring()
+
+    @property
+    def at(self) -> dict[str, int | None]:
+        return {judge.trainer: judge.proposal_id for judge in self.seats.judges}
+
+
+PARALLEL = Together(parallel=True, lease_seconds=30, vanish_seconds=10)
+
+
+async def test_a_lease_lasts_while_they_look_and_goes_back_when_they_do_not() -> None:
+    room = Room(PARALLEL, opened=[proposal(1)])
+    room.seats.arrive("ann")
+    room.seats.arrive("bob")
+    assert room.at == {"ann": 1, "bob": None}
+    assert room.seats.why_not("bob", room.opened[0]) is not None
+    room.later(20)
+    room.seats.look("ann")
+    room.seats.look("bob")
+    room.later(20)
+    assert room.at == {"ann": 1, "bob": None}
+    room.seats.look("bob")
+    room.later(11)  # ann has looked at it for the last time half a minute ago
+    assert room.at == {"ann": None, "bob": 1}
+    assert room.seats.why_not("ann", room.opened[0]) is not None
+    assert [judge.away for judge in room.seats.judges] == [True, False]
+    assert room.seats.wanted(1) == 1, "nothing is drawn for who is away"
+    room.opened.append(proposal(2))
+    room.seats.look("ann")
+    assert room.at == {"ann": 2, "bob": 1}
+    assert room.vanished == []
+
+
+async def test_who_leaves_gives_it_back_at_once_and_is_waited_for_a_while() -> None:
+    room = Room(PARALLEL, opened=[proposal(1)])
+    room.seats.arrive("ann")
+    room.seats.arrive("ann")  # two pages of one trainer are one trainer
+    room.seats.arrive("bob")
+    room.seats.depart("ann")
+    assert room.at == {"ann": 1, "bob": None}
+    room.seats.depart("ann")
+    assert room.at == {"ann": None, "bob": 1}
+    assert room.seats.names == ["ann", "bob"], "an electorate still has her"
+    room.later(9)
+    assert room.vanished == []
+    room.seats.arrive("ann")
+    room.later(60)
+    assert room.vanished == []
+    room.seats.depart("ann")
+    room.later(10)
+    assert (room.vanished, room.seats.names) == (["ann"], ["bob"])
+
+
+async def test_without_a_page_every_sign_of_life_is_a_seat_for_a_while() -> None:
+    room = Room(PARALLEL, opened=[proposal(1)])
+    room.seats.look("ann")
+    assert room.at == {"ann": 1}
+    room.later(9)
+    room.seats.look("ann")
+    room.later(9)
+    assert room.at == {"ann": 1}
+    room.later(1)
+    assert room.at == {}
+    assert room.vanished == ["ann"]
+
+
+async def test_who_has_to_practise_gets_nothing_and_is_in_no_electorate() -> None:
+    room = Room(PARALLEL, opened=[proposal(1)])
+    room.seats.arrive("ann", counts=False)
+    room.seats.arrive("bob")
+    assert (room.at, room.seats.names, room.seats.wanted(1)) == ({"ann": None, "bob": 1}, ["bob"], 1)
+    room.opened.append(proposal(2))
+    room.seats.look("ann")
+    assert room.at == {"ann": 2, "bob": 1}
+
+
+async def test_a_proposal_that_is_gone_is_replaced_and_everyone_is_told_once() -> None:
+    room = Room(PARALLEL, opened=[proposal(1), proposal(2)])
+    room.seats.arrive("ann")
+    room.seats.arrive("bob")
+    before = len(room.told)
+    room.seats.deal()
+    assert len(room.told) == before
+    room.opened[:] = [proposal(2), proposal(3)]
+    room.seats.deal()
+    newest = room.told[-1]
+    assert len(room.told) == before + 1
+    assert isinstance(newest, JudgesChanged)
+    assert [(judge.trainer, judge.proposal_id) for judge in newest.judges] == [("ann", 3), ("bob", 2)]
+    assert all(judge.until is not None for judge in newest.judges)
+
+
+async def test_the_clock_rings_by_itself() -> None:
+    gone = asyncio.Event()
+    seats = Seating(lambda _: None)
+    seats.on_vanished = lambda _: gone.set()
+    seats.follow(FIRST, Together(vanish_seconds=0.01))
+    seats.arrive("ann")
+    seats.depart("ann")
+    await asyncio.wait_for(gone.wait(), 30)
+    assert seats.judges == []
