@@ -1,4 +1,4 @@
-"""What the preset `recommended` is made of, one ingredient at a time: the settings that take each away.
+"""What the preset `recommended` is made of: the settings that take each ingredient away, and the steps that lead there.
 
 Pure data for studies, benchmarks and the documentation; imports no torch.
 """
@@ -9,6 +9,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
+
+from agent.config import PAPER_SIM, RECOMMENDED, SeedSettings
 
 
 @dataclass(frozen=True)
@@ -102,3 +104,59 @@ ABLATIONS: Mapping[str, Ablation] = MappingProxyType(
     }
 )
 """Ingredient -> what `recommended` is without it; `nothing` is the reference row."""
+
+
+def _ladder() -> Mapping[str, Ablation]:
+    """Each step keeps what those before it added; what is still missing is as in the paper."""
+    steps: tuple[tuple[str, str, str, tuple[str, ...]], ...] = (
+        ("paper", "paper_sim", "The paper to the letter.", ()),
+        (
+            "training",
+            "+ training",
+            "20 steps a label of 1e-3 instead of 5 of 3e-3, temperatures from 0.2, two critics, 64 units, batch 128.",
+            ("learning_rate", "gradient_steps", "initial_temperature", "critics", "hidden_size", "batch_size"),
+        ),
+        (
+            "augmentation",
+            "+ key points, augmentation",
+            "The networks are told each skill's key points; stored labels are moved, mirrored and turned with them.",
+            ("keypoints", "augment_translation", "augment_flip", "augment_rotation"),
+        ),
+        (
+            "relative_critic",
+            "+ relative critic",
+            "The critic reads parameters relative to the skill's key points.",
+            ("relative_critic",),
+        ),
+        (
+            "candidates",
+            "+ candidates",
+            "Of many calls the critic's favourites are proposed, refused spots are left out, and what never was called "
+            "good gets a head start.",
+            ("candidates",),
+        ),
+        (
+            "grounded_actor",
+            "+ grounded actor",
+            "The actor chooses a key point with the skill, and an offset from there.",
+            ("grounded_actor",),
+        ),
+        (
+            "elimination",
+            "+ elimination",
+            "Where no key point leads to the goal, each refusal rules out a neighbourhood.",
+            ("explore_elimination",),
+        ),
+        ("recall", "+ recall", "Calls that were good are candidates again.", ("recall",)),
+        ("consensus", "+ consensus", "Labels of like calls vote on each other: `recommended`.", ("consensus",)),
+    )
+    paper, missing = SeedSettings(**PAPER_SIM).model_dump(), set(RECOMMENDED)
+    ladder = {}
+    for name, title, sentence, added in steps:
+        missing -= set(added)
+        ladder[name] = _without(title, sentence, **{field: paper[field] for field in RECOMMENDED if field in missing})
+    return MappingProxyType(ladder)
+
+
+LADDER = _ladder()
+"""From `paper_sim` to `recommended`, step by step; settings are, as above, what differs from `recommended`."""

@@ -14,10 +14,10 @@ from rich.console import Console
 from agent.algorithm import AgentError
 from agent.study.algorithms import CONTESTANTS
 from agent.study.execution import ProcessDied
-from agent.study.plan import CLICKS, SCENARIOS, Plan
+from agent.study.plan import CLICKS, SCENARIOS, Plan, StudyError
 from robot_adapters.base import AdapterError, Unavailable
 from server.study_claims import CLAIMS, run_claim
-from server.study_plans import FIRST_SEED, ablated, competing, named, plan_of
+from server.study_plans import FIRST_SEED, ablated, competing, ladder, named, plan_of
 from server.study_runs import Place, run_study
 from server.study_screen import results_table
 
@@ -66,8 +66,10 @@ def list_studies() -> None:
     for scenario in SCENARIOS.values():
         unit = scenario.axis.value.replace("_", " ")
         typer.echo(f"  {scenario.name:<16} {scenario.usual_budget:>9,} {unit}: {', '.join(scenario.algorithms)}")
-    typer.echo("ablation: the preset recommended, one ingredient taken away at a time")
-    typer.echo(f"  tasks: {', '.join(CLICKS)}; ingredients: {', '.join(ablated())}")
+    typer.echo(
+        "ablation: the preset recommended, one ingredient taken away at a time; --ladder: from paper_sim up to it"
+    )
+    typer.echo(f"  tasks: {', '.join(CLICKS)}; ingredients: {', '.join(ablated())}; --ladder: {', '.join(ladder())}")
     for claim in CLAIMS.values():
         typer.echo(f"{claim.name}: {claim.title}")
 
@@ -119,6 +121,9 @@ def ablation(  # noqa: PLR0917  as above
     without: Annotated[
         str | None, typer.Option(help="ingredients to take away, separated by commas [default: each in turn, and none]")
     ] = None,
+    up: Annotated[
+        bool, typer.Option("--ladder", help="from paper_sim to recommended, one ingredient more at each step")
+    ] = False,
     tasks: Annotated[str | None, typer.Option(help="tasks, separated by commas [default: stacking]")] = None,
     adapter: Adapter = None,
     jobs: Jobs = None,
@@ -129,12 +134,13 @@ def ablation(  # noqa: PLR0917  as above
     data_dir: DataDir = None,
     as_json: AsJson = False,
 ) -> None:
-    """What each ingredient of the preset `recommended` is worth: success over feedbacks without it."""
+    """What each ingredient of the preset `recommended` is worth: success over feedbacks without it, or step by step."""
     given = {
         "seeds": seeds,
         "first_seed": first_seed,
         "budget": budget,
         "without": without,
+        "ladder": up or None,
         "tasks": tasks,
         "adapter": adapter,
         "evaluations": evaluations,
@@ -142,8 +148,10 @@ def ablation(  # noqa: PLR0917  as above
     }
 
     def plan() -> Plan:
-        contestants = named("ingredient", without, ablated(), option="--without")
-        return plan_of("ablation", [(each, contestants) for each in named("task", tasks or "stacking", CLICKS)], given)
+        if up and without is not None:
+            raise StudyError("--without: a ladder takes nothing away", remedy="leave out --without or --ladder")
+        rows = list(ladder().values()) if up else named("ingredient", without, ablated(), option="--without")
+        return plan_of("ablation", [(each, rows) for each in named("task", tasks or "stacking", CLICKS)], given)
 
     _run("ablation", plan, given, Place(out, data_dir, jobs, resume), as_json=as_json)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeVar
 
-from agent.ablation import ABLATIONS
+from agent.ablation import ABLATIONS, LADDER, Ablation
 from agent.study.algorithms import CONTESTANTS, ORACLE
 from agent.study.plan import Contestant, Plan, Protocol, Scenario, StudyError, planned
 from robot_adapters import registry
@@ -16,12 +16,21 @@ T = TypeVar("T")
 
 def ablated() -> dict[str, Contestant]:
     """Ingredient -> SEED by the recommended preset without it."""
+    return _changed(ABLATIONS)
+
+
+def ladder() -> dict[str, Contestant]:
+    """Ingredient -> SEED by the preset `paper_sim` with it and those before it."""
+    return _changed(LADDER)
+
+
+def _changed(rows: Mapping[str, Ablation]) -> dict[str, Contestant]:
     recommended = CONTESTANTS["seed-recommended"]
     return {
         name: recommended.model_copy(
             update={"name": name, "title": ablation.title, "settings": {**recommended.settings, **ablation.settings}}
         )
-        for name, ablation in ABLATIONS.items()
+        for name, ablation in rows.items()
     }
 
 

@@ -7,8 +7,8 @@ import sys
 
 import pytest
 
-from agent.ablation import ABLATIONS
-from agent.config import RECOMMENDED, SEED, SeedSettings
+from agent.ablation import ABLATIONS, LADDER
+from agent.config import PAPER_SIM, RECOMMENDED, SEED, SeedSettings
 
 RECOMMENDED_SETTINGS = SeedSettings(**SEED.presets["recommended"])
 
@@ -30,6 +30,14 @@ def test_every_setting_of_the_preset_is_in_some_row() -> None:
     """Whoever adds an ingredient to the preset adds the row without it."""
     covered = {field for row in ABLATIONS.values() for field in row.settings}
     assert set(RECOMMENDED) <= covered
+
+
+def test_the_ladder_leads_from_the_paper_to_the_preset() -> None:
+    rungs = [SeedSettings(**{**RECOMMENDED, **row.settings}) for row in LADDER.values()]
+    assert rungs[0] == SeedSettings(**PAPER_SIM)
+    assert rungs[-1] == RECOMMENDED_SETTINGS
+    for (name, row), below in zip(list(LADDER.items())[1:], list(LADDER.values()), strict=False):
+        assert set(row.settings) < set(below.settings), f"{name} adds nothing"
 
 
 def test_reading_the_list_loads_no_torch() -> None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import os
 import statistics
+import zlib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -58,6 +59,31 @@ def seldom(share: float, otherwise: int | None) -> Judge:
         return task.judge(state, call) if dice.random() < share else otherwise
 
     return judge
+
+
+def disagreeing(share: float) -> Judge:
+    """Two trainers, either of whom may click: one by the task's rule, the other against it in this share of places.
+
+    The other is of a mind and not careless: asked again about a like call with a like subgoal ahead, the answer is the
+    same.
+    """
+
+    def judge(task: Task, state: Array, call: SkillCall, dice: np.random.Generator) -> int:
+        value = task.judge(state, call)
+        if dice.random() < 0.5:
+            return value
+        points = task.keypoints(state, call.skill)
+        position = np.array(call.parameters[:3])
+        nearest = points[np.argmin(np.linalg.norm(points - position, axis=1))] if len(points) else np.zeros(3)
+        place = [int(each) for each in np.floor((position - nearest) / PLACE)]
+        mind = zlib.crc32(repr((call.skill, task.subgoal(state), place)).encode()) / 2**32
+        return -value if mind < share else value
+
+    return judge
+
+
+PLACE = 0.02
+"""m of the places about which a trainer is of one mind."""
 
 
 @dataclass(frozen=True)

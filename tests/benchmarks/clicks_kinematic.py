@@ -27,8 +27,9 @@ TEACHERS = {
     "wrong_20": clicks.wrong(0.2),
     "one_in_three": clicks.seldom(1 / 3, None),
     "two_in_three_neutral": clicks.seldom(1 / 3, 0),
+    "disagreeing": clicks.disagreeing(0.3),
 }
-BUDGET = {"right": 2, "wrong_10": 3, "wrong_20": 4, "one_in_three": 2, "two_in_three_neutral": 2}
+BUDGET = {"right": 2, "wrong_10": 3, "wrong_20": 4, "one_in_three": 2, "two_in_three_neutral": 2, "disagreeing": 4}
 """Times the bar: answers after which a seed is given up."""
 
 

@@ -129,6 +129,15 @@ def test_an_ablation_takes_one_ingredient_away_at_a_time(tmp_path: Path) -> None
     assert "the paper's figure" not in (out / "table.md").read_text("utf-8")
 
 
+def test_an_ablation_also_goes_step_by_step_from_the_paper_to_the_preset(tmp_path: Path) -> None:
+    out = tmp_path / "study"
+    options = ["--ladder", "--adapter", "kinematic", "--seeds", 1, "--budget", 1, "--evaluations", 1, "--rollouts", 1]
+    wrong(["study", "ablation", "--without", "recall", *options, "--out", out], "--without", "--ladder")
+    done = told(["study", "ablation", *options, "--out", out])
+    assert [done["results"][at]["algorithm"] for at in (0, -1)] == ["paper", "consensus"]
+    wrong(["study", "ablation", "--resume", "--ladder", "--out", out], "--ladder", "--resume")
+
+
 def test_folders_of_something_else_are_left_alone(tmp_path: Path) -> None:
     thesis = tmp_path / "thesis" / "chapter.tex"
     thesis.parent.mkdir()
