@@ -8,12 +8,13 @@ from collections.abc import AsyncIterator
 from importlib.metadata import version
 from pathlib import Path
 
-from fastapi import FastAPI, Response
+from fastapi import Depends, FastAPI, Response
 from fastapi.responses import FileResponse, HTMLResponse, JSONResponse
 from fastapi_offline import FastAPIOffline
 from starlette.convertors import Convertor, register_url_convertor
 
 from server import errors
+from server.access import authorised
 from server.openapi import describe
 from server.origin import Guard
 from server.routes import (
@@ -67,6 +68,7 @@ def create_app(settings: Settings | None = None, service: Service | None = None)
         version=version("seed-robot"),
         summary="Train a robot arm by judging the skills it proposes.",
         lifespan=lifespan,
+        dependencies=[Depends(authorised)],
         generate_unique_id_function=lambda route: route.name,
         separate_input_output_schemas=False,
     )

@@ -25,6 +25,7 @@ from server.worker import CommandFailed, WorkerDied, WorkerError, WorkerTimeout
 MEDIA_TYPE = "application/problem+json"
 SLUGS = {
     400: "bad-request",
+    401: "not-signed-in",
     403: "forbidden",
     404: "not-found",
     405: "method-not-allowed",
@@ -76,9 +77,11 @@ class ServiceError(Exception):
         slug: str | None = None,
         fields: list[FieldProblem] | None = None,
         extra: Mapping[str, Any] | None = None,
+        headers: Mapping[str, str] | None = None,
     ) -> None:
         super().__init__(detail)
         self.remedy = remedy
+        self.headers = headers
         self.problem = problem(status, detail, remedy=remedy, slug=slug, fields=fields, extra=extra)
 
 
@@ -160,7 +163,7 @@ def install(app: FastAPI) -> None:
     """Give every error of the app this one shape."""
 
     async def handle(_: Request, error: Exception) -> Response:
-        headers = getattr(error, "headers", None) if isinstance(error, HTTPException) else None
+        headers = error.headers if isinstance(error, HTTPException | ServiceError) else None
         return response(problem_of(error), headers)
 
     foreseen = (StoreError, WorkerError, AdapterError, AgentError, ServiceError)

@@ -13,6 +13,7 @@ from server import auto_approval, catalogue
 from server.desk import Desk
 from server.lifecycle import MOVING
 from server.messages import EvaluationChanged, ExecutionEnded, ExperimentChanged, RobotTold, Snapshot
+from server.presence import Presence
 from server.publisher import Publisher
 from server.runner import Runner
 from server.schemas import (
@@ -45,6 +46,7 @@ class Hub:
 
     def __init__(self, store: Store, settings: Settings, publisher: Publisher) -> None:
         self.store = store
+        self.presence = Presence()
         self._settings = settings
         self._publisher = publisher
         self._runners: dict[int, Runner] = {}

@@ -27,11 +27,13 @@ Order = Literal["asc", "desc"]
 class Listing(BaseModel):
     """Which experiments, and in which order. What is left out narrows nothing.
 
+    only: the one experiment that may be seen at all.
     text: part of the name or of a tag, whichever case. tags: every one of them. good_share: good over all feedback.
     """
 
     model_config = ConfigDict(frozen=True)
 
+    only: int | None = None
     task: str | None = None
     adapter: str | None = None
     algorithm: str | None = None

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from server import catalogue
+from server.doors import Doors
 from server.errors import ServiceError
 from server.hub import Hub
 from server.measuring import Measuring
@@ -42,6 +43,7 @@ class Service:
     store: Store
     rooms: Rooms
     hub: Hub
+    doors: Doors
 
     async def create(self, body: ExperimentCreate, receipt: Receipt | None = None) -> Experiment:
         """Check a new experiment and store it, with the answer that a retry gets.
@@ -88,7 +90,7 @@ async def opened(settings: Settings, listener: Publisher | None = None) -> Async
             hub = Hub(store, settings, measuring)
             await hub.start()
             try:
-                yield Service(settings, store, rooms, hub)
+                yield Service(settings, store, rooms, hub, Doors())
             finally:
                 await measuring.close()
                 try:

@@ -75,6 +75,8 @@ def _narrowed(listing: Listing) -> list[ColumnElement[bool]]:
     row = ExperimentRow
     exact = ((row.task, listing.task), (row.adapter, listing.adapter), (row.algorithm, listing.algorithm))
     wanted: list[ColumnElement[bool]] = [column == value for column, value in exact if value is not None]
+    if listing.only is not None:
+        wanted.append(row.id == listing.only)
     if listing.lifecycle == "halted":
         wanted.append(row.halted.is_(True))
     elif listing.lifecycle is not None:

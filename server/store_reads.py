@@ -25,6 +25,7 @@ from server import (
 from server import store_wire as wire
 from server.database import Database
 from server.models_incidents import IncidentRow
+from server.models_quality import PracticeRow
 from server.schemas_catalogue import TrainerPage
 from server.schemas_listing import Listing
 from server.schemas_trust import AutoApprovalRecord, Calibration
@@ -34,6 +35,14 @@ from server.store_values import StoredLabel, StoredResponse
 
 T = TypeVar("T")
 W = TypeVar("W")
+
+_OF_EXPERIMENT = {
+    "proposal": models.ProposalRow,
+    "feedback": models.FeedbackRow,
+    "execution": models.ExecutionRow,
+    "incident": IncidentRow,
+    "practice": PracticeRow,
+}
 
 
 class Reads:
@@ -58,6 +67,12 @@ class Reads:
         row = models.ExperimentRow
         query = select(row.id).where(row.lifecycle == schemas.Lifecycle.RUNNING.value).order_by(row.id)
         return await self._database.read(lambda session: list(session.scalars(query)))
+
+    async def experiment_of(self, kind: str, row_id: int) -> int | None:
+        """The experiment that a proposal, feedback, execution, incident or practice belongs to, if there is one."""
+        row: Any = _OF_EXPERIMENT[kind]
+        query = select(row.experiment_id).where(row.id == row_id)
+        return await self._database.read(lambda session: session.scalar(query))
 
     async def proposal(self, proposal_id: int) -> schemas.Proposal:
         """One proposal."""

@@ -11,6 +11,7 @@ import asyncio
 import contextlib
 import json
 import struct
+import time
 from collections import defaultdict, deque
 from collections.abc import Coroutine, Iterator
 from contextlib import contextmanager
@@ -37,6 +38,8 @@ from server.messages import (
     Refused,
     StreamEvent,
 )
+from server.presence import Visit
+from server.roles import refusal
 from server.schemas import Feedback, FeedbackCreate
 from server.schemas_labels import RelabelCreate
 from server.store import Store
@@ -44,6 +47,8 @@ from server.store_errors import NotFound, StoreError
 
 TRY_AGAIN_LATER = 1013
 POLICY_VIOLATION = 1008
+SIGNED_OUT = 4401
+"""Close code of a stream whose viewer's access has ended; 4000 and up are an application's own."""
 RUBBISH_LIMIT = 20
 """Unreadable messages after which a viewer is disconnected; a page of ours sends none."""
 INBOX_LIMIT = 64
@@ -168,21 +173,16 @@ class Connection:
     """One viewer's WebSocket on one experiment."""
 
     def __init__(
-        self,
-        socket: WebSocket,
-        outbox: Outbox,
-        hub: Hub,
-        store: Store,
-        experiment_id: int,
-        *,
-        trainer: str | None = None,
+        self, socket: WebSocket, outbox: Outbox, hub: Hub, store: Store, visit: Visit, *, trainer: str | None = None
     ) -> None:
         """trainer: whose page it is; None: somebody's who only watches, or whose clicks say who they are."""
         self._socket = socket
         self._outbox = outbox
         self._hub = hub
         self._store = store
-        self._experiment_id = experiment_id
+        self._visit = visit
+        self._who = visit.who
+        self._experiment_id = visit.experiment_id
         self._trainer = trainer
         self._inbox: asyncio.Queue[Request] = asyncio.Queue(INBOX_LIMIT)
         self._going: set[asyncio.Task[None]] = set()
@@ -190,9 +190,8 @@ class Connection:
 
     async def serve(self) -> None:
         """Run until either side ends."""
-        parts = [
-            asyncio.create_task(part) for part in (self._send(), self._receive(), self._work(), self._outbox.overflow())
-        ]
+        lives = (self._send(), self._receive(), self._work(), self._outbox.overflow(), self._cut_off())
+        parts = [asyncio.create_task(part) for part in lives]
         try:
             done, _ = await asyncio.wait(parts, return_when=asyncio.FIRST_COMPLETED)
         finally:
@@ -200,7 +199,9 @@ class Connection:
                 task.cancel()
         # what has been taken from the wire is carried through: a click, and above all a halt
         await asyncio.gather(*parts, *self._going, return_exceptions=True)
-        if self._outbox.overflowed:
+        if self._visit.cut.is_set():
+            await self._close(SIGNED_OUT, "your access has ended")
+        elif self._outbox.overflowed:
             await self._close(TRY_AGAIN_LATER, "too slow: reconnect for a snapshot")
         elif self._rubbish >= RUBBISH_LIMIT:
             await self._close(POLICY_VIOLATION, "too many unreadable messages")
@@ -208,6 +209,9 @@ class Connection:
             error = task.exception()
             if error is not None and not isinstance(error, WebSocketDisconnect):
                 raise error
+
+    async def _cut_off(self) -> None:
+        await self._visit.cut.wait()
 
     async def _send(self) -> None:
         while True:
@@ -234,7 +238,10 @@ class Connection:
             first = error.errors(include_input=False, include_url=False)[0]
             self._refuse_rubbish(".".join([*map(str, first["loc"]), first["msg"]]), _request_id(text))
             return
-        if isinstance(message, ClientFrameAck):
+        self._visit.heard_at = time.monotonic()
+        if (refused := refusal(self._who, message.type)) is not None:
+            self._answer(Refused(request_id=_request_id(text), problem=refused))
+        elif isinstance(message, ClientFrameAck):
             self._outbox.acknowledged()
         elif isinstance(message, ClientPing):
             self._answer(Pong())
@@ -271,7 +278,9 @@ class Connection:
                 feedback = await self._undo(message)
             elif isinstance(message, ClientRelabel):
                 correction = RelabelCreate(click_id=message.click_id, value=message.value, trainer=message.trainer)
-                feedback, _ = await self._hub.relabel(message.feedback_id, correction, self._experiment_id)
+                feedback, _ = await self._hub.relabel(
+                    message.feedback_id, self._who.named(correction), self._experiment_id
+                )
             else:
                 click = FeedbackCreate(
                     click_id=message.click_id,
@@ -280,7 +289,9 @@ class Connection:
                     estimate_shown=message.estimate_shown,
                     looked=message.looked,
                 )
-                feedback, _ = await self._hub.feedback(message.proposal_id, click, experiment_id=self._experiment_id)
+                feedback, _ = await self._hub.feedback(
+                    message.proposal_id, self._who.named(click), experiment_id=self._experiment_id
+                )
         except Exception as error:  # noqa: BLE001  every error goes back to the viewer in one shape; the stream lives on
             self._answer(Refused(request_id=_id_of(message), problem=problem_of(error)))
         else:
@@ -290,7 +301,7 @@ class Connection:
         feedback = await self._store.feedback(message.feedback_id)
         if feedback.experiment_id != self._experiment_id:
             raise NotFound("feedback of this experiment", message.feedback_id)
-        return await self._hub.undo(message.feedback_id, by=self._trainer)
+        return await self._hub.undo(message.feedback_id, by=self._trainer if self._who.local else self._who.name)
 
     async def _look(self, trainer: str) -> None:
         with contextlib.suppress(StoreError):  # it comes again in a moment

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query
 
-from server.routes.dependencies import Id, Running, errors
+from server.routes.dependencies import Id, Running, Who, errors
 from server.schemas import Experiment
 from server.schemas_attendance import Attending, OperatorName
 
@@ -17,17 +17,18 @@ router = APIRouter(prefix="/experiments/{experiment_id}", tags=["experiments"])
 
 @router.put("/attendance", responses=errors(404, 409, 413, 422))
 async def attend(
-    service: Running, experiment_id: Id, body: Annotated[Attending, Body(openapi_examples=EXAMPLES)]
+    service: Running, who: Who, experiment_id: Id, body: Annotated[Attending, Body(openapi_examples=EXAMPLES)]
 ) -> Attending:
     """Say that you stand at the robot and watch it. Say it again before the time is over: else whatever moves stops."""
-    await service.hub.attend(experiment_id, body.operator, body.seconds)
-    return body
+    operator = who.called(body.operator).name
+    await service.hub.attend(experiment_id, operator, body.seconds)
+    return body.model_copy(update={"operator": operator})
 
 
 @router.delete("/attendance", status_code=204, responses=errors(404, 422))
-async def leave(service: Running, experiment_id: Id, operator: Annotated[OperatorName, Query()]) -> None:
+async def leave(service: Running, who: Who, experiment_id: Id, operator: Annotated[OperatorName, Query()]) -> None:
     """Leave the robot: what moves stops, and nothing moves until somebody attends it again."""
-    await service.hub.leave(experiment_id, operator)
+    await service.hub.leave(experiment_id, who.called(operator).name)
 
 
 @router.post("/recover", responses=errors(404, 409, 422))

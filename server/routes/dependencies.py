@@ -6,7 +6,9 @@ from typing import Annotated, Any
 
 from fastapi import Depends, Path, Query, Request
 
+from server.access import principal
 from server.errors import MEDIA_TYPE
+from server.principal import Principal
 from server.schemas_problems import Problem
 from server.service import Service
 
@@ -15,7 +17,8 @@ LARGEST_ID = 2**63 - 1
 
 _DESCRIPTIONS = {
     400: "The body is no JSON, or nested too deeply",
-    403: "A foreign page, or a foreign host name",
+    401: "Nobody is signed in",
+    403: "The role doesn't allow it; or a foreign page, or a foreign host name",
     404: "Nothing has this id or name",
     409: "The state of things doesn't allow it; `current` and `allowed` say what does",
     413: "The body is too large",
@@ -31,6 +34,8 @@ def service(request: Request) -> Service:
     return running
 
 
+Who = Annotated[Principal, Depends(principal)]
+"""Whoever calls; the role was checked before."""
 Running = Annotated[Service, Depends(service)]
 Id = Annotated[int, Path(ge=1, le=LARGEST_ID, examples=[1])]
 Cursor = Annotated[str | None, Query(max_length=64, description="`next_cursor` of the page before; none: first page")]
@@ -42,5 +47,5 @@ def errors(*statuses: int) -> dict[int | str, dict[str, Any]]:
     content = {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
     return {
         status: {"model": Problem, "description": _DESCRIPTIONS[status], "content": content}
-        for status in sorted({403, 500, 503, *statuses})
+        for status in sorted({401, 403, 500, 503, *statuses})
     }

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from fastapi import APIRouter, Body, Query, Request, Response
 
 from server.idempotency import IdempotencyKey, once
-from server.routes.dependencies import Id, Limit, Running, errors
+from server.routes.dependencies import Id, Limit, Running, Who, errors
 from server.schemas import (
     Evaluation,
     EvaluationCreate,
@@ -47,6 +47,7 @@ EXAMPLES: dict[str, Any] = {
 @router.get("", responses=errors(422))
 async def list_experiments(  # noqa: PLR0917  FastAPI makes a query parameter of each
     service: Running,
+    who: Who,
     task: Exact = None,
     adapter: Exact = None,
     algorithm: Exact = None,
@@ -60,6 +61,7 @@ async def list_experiments(  # noqa: PLR0917  FastAPI makes a query parameter of
 ) -> ExperimentPage:
     """Experiments, newest first unless told otherwise. A cursor goes on in the order that it came from."""
     listing = Listing(
+        only=who.experiment_id,
         task=task,
         adapter=adapter,
         algorithm=algorithm,

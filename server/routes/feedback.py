@@ -7,7 +7,7 @@ from typing import Annotated
 from fastapi import APIRouter, Body, Query, Response
 
 from server.errors import late_feedback
-from server.routes.dependencies import Cursor, Id, Limit, Running, errors
+from server.routes.dependencies import Cursor, Id, Limit, Running, Who, errors
 from server.schemas import Feedback, FeedbackCreate, FeedbackPage, FeedbackStatus
 from server.schemas_labels import RelabelCreate
 
@@ -31,12 +31,13 @@ Asker = Annotated[str | None, Query(max_length=64, description="who asks: nobody
 )
 async def give_feedback(
     service: Running,
+    who: Who,
     response: Response,
     proposal_id: Id,
     body: Annotated[FeedbackCreate, Body(openapi_examples=CLICK)],
 ) -> Feedback:
     """One click. It is answered after it is stored; a late one is kept, decides nothing, and is answered 409."""
-    feedback, duplicate = await service.hub.feedback(proposal_id, body)
+    feedback, duplicate = await service.hub.feedback(proposal_id, who.named(body))
     if feedback.status is FeedbackStatus.LATE:
         raise late_feedback(feedback)
     if duplicate:
@@ -74,18 +75,19 @@ async def get_feedback(service: Running, feedback_id: Id) -> Feedback:
 )
 async def relabel_feedback(
     service: Running,
+    who: Who,
     response: Response,
     feedback_id: Id,
     body: Annotated[RelabelCreate, Body(openapi_examples=CORRECTION)],
 ) -> Feedback:
     """Correct one's own click on a closed proposal, however old. The learner follows; no verdict or motion changes."""
-    feedback, duplicate = await service.hub.relabel(feedback_id, body)
+    feedback, duplicate = await service.hub.relabel(feedback_id, who.named(body))
     if duplicate:
         response.status_code = 200
     return feedback
 
 
 @router.delete("/feedback/{feedback_id}", responses=errors(404, 409, 422))
-async def undo_feedback(service: Running, feedback_id: Id, trainer: Asker = None) -> Feedback:
+async def undo_feedback(service: Running, who: Who, feedback_id: Id, trainer: Asker = None) -> Feedback:
     """Take back a trainer's newest click, while nothing has moved; its proposal is open again."""
-    return await service.hub.undo(feedback_id, by=trainer)
+    return await service.hub.undo(feedback_id, by=trainer if who.local else who.name)

@@ -10,7 +10,7 @@ from fastapi.responses import FileResponse
 
 from server.errors import ServiceError
 from server.images import Images
-from server.routes.dependencies import Cursor, Id, Limit, Running, errors
+from server.routes.dependencies import Cursor, Id, Limit, Running, Who, errors
 from server.schemas import Execution
 from server.schemas_incidents import Incident, IncidentPage, ReportCreate
 
@@ -30,12 +30,13 @@ JPEG: dict[int | str, dict[str, Any]] = {200: {"content": {"image/jpeg": {}}, "d
 )
 async def report_execution(
     service: Running,
+    who: Who,
     response: Response,
     execution_id: Id,
     body: Annotated[ReportCreate, Body(openapi_examples=SEEN)],
 ) -> Execution:
     """Say what an execution did, where the robot can't tell by itself. Its own outcome and the counters stay."""
-    execution, duplicate = await service.store.report_execution(execution_id, body)
+    execution, duplicate = await service.store.report_execution(execution_id, who.named(body))
     if duplicate:
         response.status_code = 200
     return execution

@@ -6,14 +6,15 @@ import asyncio
 import dataclasses
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Body, Query, Request, Response
+from fastapi import APIRouter, Body, Request, Response
 from fastapi.responses import FileResponse
 
 from server import practising
 from server.models_quality import PracticeRow
-from server.routes.dependencies import Id, Running, errors
+from server.routes.dependencies import Id, Running, Who, errors
 from server.routes.proposals import IMAGE, picture
-from server.schemas_labels import TrainerName, answer_of
+from server.routes.quality import Whose
+from server.schemas_labels import answer_of
 from server.schemas_practice import (
     PracticeAnswer,
     PracticeCard,
@@ -28,23 +29,22 @@ from server.service import Service
 
 router = APIRouter(tags=["practice"])
 
-WHO: dict[str, Any] = {"by name": {"value": {"trainer": "local"}}}
+BY_NAME: dict[str, Any] = {"by name": {"value": {"trainer": "local"}}}
 ANSWER: dict[str, Any] = {"it is bad": {"value": {"click_id": "44c0b1de-77aa", "value": -1}}}
 
 
 @router.get("/experiments/{experiment_id}/practice", responses=errors(404, 422))
-async def get_practice(
-    service: Running, experiment_id: Id, trainer: Annotated[TrainerName, Query(description="whose")] = "local"
-) -> PracticeProgress:
+async def get_practice(service: Running, who: Who, experiment_id: Id, trainer: Whose = None) -> PracticeProgress:
     """How a trainer does in practice, what is required, and whether their clicks count."""
-    return await service.store.quality.practice_progress(experiment_id, trainer)
+    return await service.store.quality.practice_progress(experiment_id, who.speaking_for(trainer))
 
 
 @router.post("/experiments/{experiment_id}/practice", responses=errors(400, 404, 409, 413, 422))
 async def next_practice(
-    service: Running, experiment_id: Id, body: Annotated[PracticeCreate, Body(openapi_examples=WHO)]
+    service: Running, who: Who, experiment_id: Id, body: Annotated[PracticeCreate, Body(openapi_examples=BY_NAME)]
 ) -> PracticeCard:
     """The practice proposal that waits for this trainer; a new one where none does. Asked again, it is the same one."""
+    body = who.named(body)
     experiment = await service.store.experiment(experiment_id)
     by, number, row = await service.store.quality.practice_place(experiment_id, body.trainer)
     if row is None:
@@ -55,9 +55,10 @@ async def next_practice(
 
 @router.post("/practice/{practice_id}/answer", responses=errors(400, 404, 409, 413, 422))
 async def answer_practice(
-    service: Running, practice_id: Id, body: Annotated[PracticeAnswer, Body(openapi_examples=ANSWER)]
+    service: Running, who: Who, practice_id: Id, body: Annotated[PracticeAnswer, Body(openapi_examples=ANSWER)]
 ) -> PracticeResult:
     """Judge it, and hear at once what was right and why. The same answer again gets the same correction."""
+    body = who.named(body)
     row = await service.store.quality.answer_practice(practice_id, body)
     why = practising.reason(row.card["reason"])
     return PracticeResult(

@@ -10,7 +10,7 @@ from fastapi.responses import FileResponse
 
 from server.errors import ServiceError
 from server.images import Images
-from server.routes.dependencies import Cursor, Id, Limit, Running, errors
+from server.routes.dependencies import Cursor, Id, Limit, Running, Who, errors
 from server.schemas import Next, Proposal, ProposalPage
 from server.schemas_together import NextCreate
 from server.service import Service
@@ -33,6 +33,7 @@ async def list_proposals(service: Running, experiment_id: Id, cursor: Cursor = N
 @router.post("/experiments/{experiment_id}/next", responses=errors(400, 404, 413, 422))
 async def next_proposal(
     service: Running,
+    who: Who,
     experiment_id: Id,
     body: Annotated[NextCreate, Body(openapi_examples={"ann": {"value": {"trainer": "ann"}}})],
 ) -> Next:
@@ -40,7 +41,7 @@ async def next_proposal(
 
     A page hears of it by the stream; this is for clients without one. Whoever asks is there, as long as they go on.
     """
-    return await service.hub.seats.look(experiment_id, body.trainer)
+    return await service.hub.seats.look(experiment_id, who.named(body).trainer)
 
 
 @router.get("/proposals/{proposal_id}", responses=errors(404, 422))

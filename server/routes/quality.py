@@ -9,12 +9,13 @@ from fastapi.responses import StreamingResponse
 
 from server import export
 from server.errors import ServiceError
-from server.routes.dependencies import Cursor, Id, Limit, Running, errors
+from server.routes.dependencies import Cursor, Id, Limit, Running, Who, errors
 from server.schemas_labels import TrainerName
 from server.schemas_quality import GoldMark, GoldPage, LabelQuality, TrainerFigures
 
 router = APIRouter(tags=["quality"])
 
+Whose = Annotated[TrainerName | None, Query(description="whose, for operators; left out: one's own")]
 MARK: dict[str, Any] = {"it is bad": {"value": {"answer": -1}}}
 TABLE: dict[int | str, dict[str, Any]] = {
     200: {"content": {media: {} for media in export.MEDIA_TYPES.values()}, "description": "The table"}
@@ -28,13 +29,12 @@ async def get_quality(service: Running, experiment_id: Id) -> LabelQuality:
 
 
 @router.get("/experiments/{experiment_id}/quality/mine", responses=errors(404, 422))
-async def get_own_figures(
-    service: Running, experiment_id: Id, trainer: Annotated[TrainerName, Query(description="whose")] = "local"
-) -> TrainerFigures:
+async def get_own_figures(service: Running, who: Who, experiment_id: Id, trainer: Whose = None) -> TrainerFigures:
     """One's own figures. Known answers are told in steps of five, so that no proposal is given away."""
-    found = await service.store.quality.figures_of(experiment_id, trainer)
+    name = who.speaking_for(trainer)
+    found = await service.store.quality.figures_of(experiment_id, name)
     if found is None:
-        raise ServiceError(404, f"{trainer} has not clicked in this experiment", remedy="judge a proposal first")
+        raise ServiceError(404, f"{name} has not clicked in this experiment", remedy="judge a proposal first")
     return found
 
 
@@ -46,10 +46,10 @@ async def list_gold(service: Running, experiment_id: Id, cursor: Cursor = None, 
 
 @router.put("/proposals/{proposal_id}/gold", status_code=204, responses=errors(400, 404, 409, 413, 422))
 async def mark_gold(
-    service: Running, proposal_id: Id, body: Annotated[GoldMark, Body(openapi_examples=MARK)]
+    service: Running, who: Who, proposal_id: Id, body: Annotated[GoldMark, Body(openapi_examples=MARK)]
 ) -> Response:
     """Know the answer to a closed proposal: at the experiment's `gold_rate` it is shown again, among the others."""
-    await service.store.quality.mark_gold(proposal_id, body)
+    await service.store.quality.mark_gold(proposal_id, who.named(body))
     return Response(status_code=204)
 
 

@@ -8,8 +8,10 @@ from typing import Annotated, get_args
 from fastapi import APIRouter, Body, FastAPI, WebSocket, WebSocketDisconnect
 from starlette.websockets import WebSocketState
 
+from server.access import principal
 from server.errors import problem, problem_of, response
 from server.messages import ClientMessage, FrameHeader, Resumed, StreamEvent
+from server.principal import Role
 from server.routes.dependencies import LARGEST_ID
 from server.service import Service
 from server.store_errors import StoreError
@@ -41,14 +43,16 @@ async def stream(socket: WebSocket, experiment_id: str, boot_id: str = "", since
     same_run = boot_id == socket.app.state.boot_id and since.isascii() and since.isdigit()
     # first listen, then look: whatever happens while the snapshot is read comes after it, some of it twice,
     # and every event carries the whole of what it is about, so twice is harmless
-    with service.rooms.join(watched) as outbox:
+    who = principal(socket)
+    seat = who.called(trainer).name if trainer and who.role.covers(Role.TRAINER) else None
+    with service.rooms.join(watched) as outbox, service.hub.presence.visit(watched, who) as visit:
         newest = service.rooms.newest(watched)
         missed = service.rooms.missed(watched, int(since[:20])) if same_run else None
-        connection = Connection(socket, outbox, service.hub, service.store, watched, trainer=trainer or None)
+        connection = Connection(socket, outbox, service.hub, service.store, visit, trainer=seat)
         try:
-            async with service.hub.seats.seated(watched, trainer or None):
+            async with service.hub.seats.seated(watched, seat):
                 if missed is None:
-                    snapshot = await service.hub.snapshot(watched, socket.app.state.boot_id, trainer or None)
+                    snapshot = await service.hub.snapshot(watched, socket.app.state.boot_id, seat)
                     first = [snapshot.model_copy(update={"seq": newest}).model_dump_json()]
                 else:
                     await service.store.experiment(watched)
