@@ -20,8 +20,11 @@ class FrankaSettings(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    host: str = Field("172.16.0.2", min_length=1, description="Address of the control box.")
-    backend: Literal["franka_rs", "franky"] = Field("franka_rs", description="What drives the arm.")
+    host: str = Field("172.16.0.2", min_length=1, description="Address of the control box, or of Deoxys's computer.")
+    backend: Literal["franka_rs", "franky", "deoxys"] = Field(
+        "franka_rs", description="What drives the arm: franka-rs, franky, or a Deoxys that runs on the arm's computer."
+    )
+    deoxys_bind: str = Field("*", description="With deoxys: the address of this PC at which it listens.")
     realtime: bool = Field(
         True, description="Refuse to drive without a PREEMPT_RT kernel; only a simulated arm forgives late commands."
     )

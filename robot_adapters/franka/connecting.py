@@ -17,7 +17,7 @@ from robot_adapters.franka.limits import Limits
 from robot_adapters.skills import LOWEST, TRANSIT_CLEARANCE
 from robot_adapters.tasks.base import Task
 
-BACKENDS = {"franka_rs": "franka_rs:FrankaRs", "franky": "franky_control:Franky"}
+BACKENDS = {"franka_rs": "franka_rs:FrankaRs", "franky": "franky_control:Franky", "deoxys": "deoxys:Deoxys"}
 MARGIN = 0.03
 """m around the task's bounds in which the hand may be: a push ends beyond them by design, and arms swing a little."""
 CEILING = 0.65
@@ -28,6 +28,7 @@ def driving(settings: FrankaSettings) -> Driving:
     """How the backend is to drive."""
     return Driving(
         host=settings.host,
+        bind=settings.deoxys_bind,
         realtime=settings.realtime,
         speed=settings.speed,
         acceleration=settings.acceleration,

@@ -15,12 +15,14 @@ REFLEX_TORQUE = 40.0
 class Driving:
     """Bounds and manners of a motion, in m, s, N.
 
-    host: of the control box. realtime: refuse to run without a real-time kernel.
-    stiffness: N/m. force: N at the hand at which a motion ends. reflex: N at the hand at which the robot stops itself.
-    leash: m that the goal may be ahead. homing_fraction: of each joint's own limits, on the way home.
+    host: of the control box (deoxys: of the arm's computer). bind: address of this PC that Deoxys listens to. realtime:
+    refuse to run without a real-time kernel. stiffness: N/m. force: N at the hand at which a motion ends. reflex: N at
+    the hand at which the robot stops itself. leash: m that the goal may be ahead. homing_fraction: of each joint's own
+    limits, on the way home.
     """
 
     host: str
+    bind: str = "*"
     realtime: bool = False
     speed: float = 0.25
     acceleration: float = 0.8

@@ -1,0 +1,113 @@
+"""Deoxys's wire against a peer of our own, without physics: what goes over it, and when nothing comes any more."""
+
+from __future__ import annotations
+
+import importlib.util
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from robot_adapters import registry
+from robot_adapters.base import EndReason, SkillCall, Unavailable
+from robot_adapters.franka import FrankaSettings, connecting, deoxys_pb2
+from robot_adapters.franka.arm import FrankaArm
+from robot_adapters.franka.backend import ArmFault, Mode
+from robot_adapters.skills import run_skill
+from tests.live import wait_for
+from tests.robot_adapters.franka.conftest import TABLE, never, nothing
+from tests.simulators.deoxys_peer import HOME, DeoxysPeer
+from tests.simulators.franka import free_host
+
+PROTO = Path(str(deoxys_pb2.__file__)).with_name("deoxys.proto")
+TASK = registry.task("stacking")
+PICK = SkillCall("pick", (0.55, 0.05, TABLE + 0.02))
+
+
+@pytest.fixture
+def hosts() -> tuple[str, str]:
+    return free_host(), free_host()
+
+
+@pytest.fixture
+def peer(hosts: tuple[str, str]) -> Iterator[DeoxysPeer]:
+    other = DeoxysPeer(*hosts, block=0.04)
+    yield other
+    other.close()
+
+
+@pytest.fixture
+def arm(hosts: tuple[str, str], peer: DeoxysPeer) -> Iterator[FrankaArm]:
+    host, pc = hosts
+    connected = connecting.arm(FrankaSettings(host=host, deoxys_bind=pc, backend="deoxys"), TASK)
+    yield connected
+    connected.backend.close()
+
+
+def test_a_pick_goes_over_the_wire_within_the_limits(arm: FrankaArm, peer: DeoxysPeer) -> None:
+    arm.begin()
+    end, steps = run_skill(arm, PICK, TASK.skills[0], should_stop=never, on_step=nothing)
+    arm.end()
+    assert end is EndReason.ARRIVED
+    assert steps > 20
+    assert peer.width == pytest.approx(0.04)
+    goals = np.array(peer.goals)
+    assert np.linalg.norm(np.diff(goals, axis=0), axis=1).max() <= 0.25 * 0.05 + 1e-6  # m: at most the speed's stride
+    assert goals[:, 2].min() == pytest.approx(TABLE + 0.02, abs=0.003)
+    assert not peer.timed_out  # not even while the fingers moved
+    wait_for(lambda: peer.terminations, "the end to be told")
+    arm.begin()
+    assert arm.home()
+    assert np.allclose(arm.look().position, HOME, atol=0.02)
+    arm.backend.open()
+
+
+def test_a_stop_and_silence_are_heeded(arm: FrankaArm, peer: DeoxysPeer) -> None:
+    steps = 0
+
+    def count() -> None:
+        nonlocal steps
+        steps += 1
+
+    arm.begin()
+    arm.should_stop = lambda: steps >= 10
+    end, _ = run_skill(arm, PICK, TASK.skills[0], should_stop=arm.should_stop, on_step=count)
+    assert end is EndReason.STOPPED
+    wait_for(lambda: peer.terminations, "the end to be told")
+    asked, arm.should_stop = len(peer.goals), never
+    peer.silent = True
+    with pytest.raises(ArmFault) as gone:
+        run_skill(arm, PICK, TASK.skills[0], should_stop=never, on_step=nothing)
+    assert gone.value.mode is Mode.DISCONNECTED
+    arm.halt()
+    assert len(peer.goals) - asked < 40
+
+
+def test_a_reflex_is_told_with_what_helps(arm: FrankaArm, peer: DeoxysPeer) -> None:
+    peer.mode = deoxys_pb2.FrankaRobotStateMessage.Reflex
+    with pytest.raises(ArmFault, match="reflex"):
+        run_skill(arm, PICK, TASK.skills[0], should_stop=never, on_step=nothing)
+    with pytest.raises(ArmFault) as refused:
+        arm.recover()
+    assert "restart" in refused.value.remedy
+    assert not peer.goals
+
+
+def test_nobody_on_the_other_side_is_told(hosts: tuple[str, str]) -> None:
+    host, pc = hosts
+    with pytest.raises(Unavailable, match="tells nothing"):
+        connecting.arm(FrankaSettings(host=host, deoxys_bind=pc, backend="deoxys"), TASK)
+
+
+def test_the_messages_are_those_of_the_proto_file(tmp_path: Path) -> None:
+    if importlib.util.find_spec("grpc_tools") is None:
+        pytest.skip("no protoc")
+    command = [sys.executable, "-m", "grpc_tools.protoc", f"-I{PROTO.parent}", f"--python_out={tmp_path}", PROTO.name]
+    subprocess.run(command, check=True)
+    written = (tmp_path / "deoxys_pb2.py").read_text("utf-8")
+    mark = "AddSerializedFile("
+    ours = Path(str(deoxys_pb2.__file__)).read_text("utf-8")
+    assert written.split(mark)[1].splitlines()[0] == ours.split(mark)[1].splitlines()[0]
