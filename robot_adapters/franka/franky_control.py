@@ -69,6 +69,8 @@ class Franky:
             if self._motion is not None and not self._robot.is_in_control:
                 self._join()
             raw = self._robot.state
+            if self._motion is None:  # that one may have waited in the socket, where newer ones found no room
+                raw = self._robot.state
         except self._driver.Exception as error:
             raise ArmFault(f"the arm doesn't answer: {error}", mode=Mode.DISCONNECTED) from error
         pose = raw.O_T_EE.matrix

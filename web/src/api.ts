@@ -4774,7 +4774,16 @@ export interface operations {
                     "application/json": components["schemas"]["TaskInfo"][];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -4823,7 +4832,16 @@ export interface operations {
                     "application/json": components["schemas"]["TaskInfo"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -4888,7 +4906,16 @@ export interface operations {
                     "application/json": components["schemas"]["AdapterInfo"][];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -4937,7 +4964,16 @@ export interface operations {
                     "application/json": components["schemas"]["AdapterInfo"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5002,7 +5038,16 @@ export interface operations {
                     "application/json": components["schemas"]["AlgorithmInfo"][];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5051,7 +5096,16 @@ export interface operations {
                     "application/json": components["schemas"]["AlgorithmInfo"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5116,7 +5170,16 @@ export interface operations {
                     "application/json": components["schemas"]["TeacherInfo"][];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5165,7 +5228,16 @@ export interface operations {
                     "application/json": components["schemas"]["TeacherInfo"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5249,7 +5321,16 @@ export interface operations {
                     "application/json": components["schemas"]["ExperimentPage"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5321,7 +5402,16 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5397,7 +5487,16 @@ export interface operations {
                     "application/json": components["schemas"]["Experiment"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5477,7 +5576,16 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5575,7 +5683,16 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5660,7 +5777,16 @@ export interface operations {
                     "application/json": components["schemas"]["Experiment"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5749,7 +5875,16 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5834,7 +5969,16 @@ export interface operations {
                     "application/json": components["schemas"]["Experiment"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5913,7 +6057,16 @@ export interface operations {
                     "application/json": components["schemas"]["Experiment"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -5989,7 +6142,16 @@ export interface operations {
                     "application/json": components["schemas"]["Experiment"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6065,7 +6227,16 @@ export interface operations {
                     "application/json": components["schemas"]["Experiment"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6141,7 +6312,16 @@ export interface operations {
                     "application/json": components["schemas"]["Experiment"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6233,7 +6413,16 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6322,7 +6511,16 @@ export interface operations {
                     "application/json": components["schemas"]["Attending"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6408,7 +6606,16 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6475,7 +6682,16 @@ export interface operations {
                     "application/json": components["schemas"]["Experiment"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6551,7 +6767,16 @@ export interface operations {
                     "application/json": components["schemas"]["Experiment"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6632,7 +6857,16 @@ export interface operations {
                     "application/json": components["schemas"]["ProposalPage"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6712,7 +6946,16 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6788,7 +7031,16 @@ export interface operations {
                     "application/json": components["schemas"]["Proposal"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6863,7 +7115,16 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -6935,7 +7196,16 @@ export interface operations {
                     "application/json": components["schemas"]["FeedbackPage"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7024,7 +7294,16 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7114,7 +7393,16 @@ export interface operations {
                     "application/json": components["schemas"]["FeedbackPage"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7181,7 +7469,16 @@ export interface operations {
                     "application/json": components["schemas"]["Feedback"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7251,7 +7548,16 @@ export interface operations {
                     "application/json": components["schemas"]["Feedback"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7349,7 +7655,16 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7456,7 +7771,16 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7541,7 +7865,16 @@ export interface operations {
                     "application/json": components["schemas"]["Execution"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7613,7 +7946,16 @@ export interface operations {
                     "application/json": components["schemas"]["IncidentPage"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7680,7 +8022,16 @@ export interface operations {
                     "application/json": components["schemas"]["Incident"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7748,7 +8099,16 @@ export interface operations {
                     "image/jpeg": unknown;
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7820,7 +8180,16 @@ export interface operations {
                     "application/json": components["schemas"]["ExecutionPage"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7892,7 +8261,16 @@ export interface operations {
                     "application/json": components["schemas"]["MetricPage"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -7964,7 +8342,16 @@ export interface operations {
                     "application/json": components["schemas"]["EventPage"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8036,7 +8423,16 @@ export interface operations {
                     "application/json": components["schemas"]["EvaluationPage"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8108,7 +8504,16 @@ export interface operations {
                     "application/json": components["schemas"]["CheckpointPage"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8178,7 +8583,16 @@ export interface operations {
                     "application/json": components["schemas"]["TrainerPage"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8239,7 +8653,16 @@ export interface operations {
                     "application/json": components["schemas"]["Curves"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8310,7 +8733,16 @@ export interface operations {
                     "application/json": components["schemas"]["Comparison"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8375,7 +8807,16 @@ export interface operations {
                     "application/json": components["schemas"]["PaperFigures"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8422,7 +8863,16 @@ export interface operations {
                     "application/json": components["schemas"]["TagInfo"][];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8474,7 +8924,16 @@ export interface operations {
                     "application/json": components["schemas"]["Calibration"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8541,7 +9000,16 @@ export interface operations {
                     "application/json": components["schemas"]["AutoApprovalRecord"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8608,7 +9076,16 @@ export interface operations {
                     "application/json": components["schemas"]["LabelQuality"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8658,8 +9135,8 @@ export interface operations {
     get_own_figures: {
         parameters: {
             query?: {
-                /** @description whose */
-                trainer?: string;
+                /** @description whose, for operators; left out: one's own */
+                trainer?: string | null;
             };
             header?: never;
             path: {
@@ -8678,7 +9155,16 @@ export interface operations {
                     "application/json": components["schemas"]["TrainerFigures"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8750,7 +9236,16 @@ export interface operations {
                     "application/json": components["schemas"]["GoldPage"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8828,7 +9323,16 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8911,7 +9415,16 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -8982,7 +9495,16 @@ export interface operations {
                     "application/x-ndjson": unknown;
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9032,8 +9554,8 @@ export interface operations {
     get_practice: {
         parameters: {
             query?: {
-                /** @description whose */
-                trainer?: string;
+                /** @description whose, for operators; left out: one's own */
+                trainer?: string | null;
             };
             header?: never;
             path: {
@@ -9052,7 +9574,16 @@ export interface operations {
                     "application/json": components["schemas"]["PracticeProgress"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9132,7 +9663,16 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9230,7 +9770,16 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9323,7 +9872,16 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9388,7 +9946,16 @@ export interface operations {
                     "application/json": components["schemas"]["StudySummary"][];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9438,7 +10005,16 @@ export interface operations {
                     "application/json": components["schemas"]["Study"];
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -9507,7 +10083,16 @@ export interface operations {
                     "application/octet-stream": unknown;
                 };
             };
-            /** @description A foreign page, or a foreign host name */
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
             403: {
                 headers: {
                     [name: string]: unknown;
