@@ -2,8 +2,7 @@
 
 Each keeps its own weights, labels and dice, so it learns what it would learn alone (to rounding). What they share is
 the pass: the same layer of all learners is one batch of matrices, and the many small operations of a step, which cost
-small networks most, are called once. It is for comparisons of your own: a study runs each seed by itself, so that one
-can be interrupted and taken up again.
+small networks most, are called once.
 """
 
 from __future__ import annotations
@@ -19,8 +18,14 @@ from agent.training import Trainer
 class StackedSeeds:
     """Learners by place, in the order of their seeds. Give labels and ask for proposals through `learners`."""
 
-    def __init__(self, problem: Problem, settings: SeedSettings, seeds: Sequence[int]) -> None:
-        self.learners = tuple(Seed(problem, settings, seed) for seed in seeds)
+    def __init__(self, learners: Sequence[Seed]) -> None:
+        """Take learners of one task and setting, fresh or trained, alone or together with others until now."""
+        self.learners = tuple(learners)
+
+    @classmethod
+    def fresh(cls, problem: Problem, settings: SeedSettings, seeds: Sequence[int]) -> StackedSeeds:
+        """New ones."""
+        return cls([Seed(problem, settings, seed) for seed in seeds])
 
     @property
     def owed_updates(self) -> int:

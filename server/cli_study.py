@@ -108,9 +108,10 @@ def paper_sim(  # noqa: PLR0917  Typer makes an option of each
         scenarios = named("task", tasks, SCENARIOS)
         chosen = None if algorithms is None else named("algorithm", algorithms, CONTESTANTS)
         entries = [(each, competing(each, chosen, strict=tasks is not None)) for each in scenarios]
-        return plan_of("paper-sim", entries, given)
+        return plan_of("paper-sim", entries, given, place.processes)
 
-    _run("paper-sim", plan, given, Place(out, data_dir, jobs, resume), as_json=as_json)
+    place = Place(out, data_dir, jobs, resume)
+    _run("paper-sim", plan, given, place, as_json=as_json)
 
 
 @app.command()
@@ -151,9 +152,11 @@ def ablation(  # noqa: PLR0917  as above
         if up and without is not None:
             raise StudyError("--without: a ladder takes nothing away", remedy="leave out --without or --ladder")
         rows = list(ladder().values()) if up else named("ingredient", without, ablated(), option="--without")
-        return plan_of("ablation", [(each, rows) for each in named("task", tasks or "stacking", CLICKS)], given)
+        scenarios = named("task", tasks or "stacking", CLICKS)
+        return plan_of("ablation", [(each, rows) for each in scenarios], given, place.processes)
 
-    _run("ablation", plan, given, Place(out, data_dir, jobs, resume), as_json=as_json)
+    place = Place(out, data_dir, jobs, resume)
+    _run("ablation", plan, given, place, as_json=as_json)
 
 
 @app.command()

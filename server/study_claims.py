@@ -68,7 +68,7 @@ def run_claim(claim: Claim, seeds: Sequence[int], rollouts: int, place: Place, c
 
 
 def _run(claim: Claim, seeds: Sequence[int], rollouts: int, place: Place, console: Console) -> dict[str, Any]:
-    folder, jobs = place.folder(claim.name), place.jobs or os.cpu_count() or 1
+    folder, jobs = place.folder(claim.name), place.processes
     began = time.monotonic()
     for name in THREADS:  # read when a library is loaded, in the processes to come
         os.environ.setdefault(name, "1")

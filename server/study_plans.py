@@ -9,6 +9,7 @@ from agent.ablation import ABLATIONS, LADDER, Ablation
 from agent.study.algorithms import CONTESTANTS, ORACLE
 from agent.study.plan import Contestant, Plan, Protocol, Scenario, StudyError, planned
 from robot_adapters import registry
+from server.workers.study import WITHOUT_PHYSICS
 
 SEEDS, FIRST_SEED, ADAPTER = 5, 10, "robosuite"
 T = TypeVar("T")
@@ -71,8 +72,10 @@ def competing(scenario: Scenario, chosen: Sequence[Contestant] | None, *, strict
     return skilled if scenario.first_subgoal else list(chosen)
 
 
-def plan_of(name: str, entries: Sequence[tuple[Scenario, Sequence[Contestant]]], given: Mapping[str, Any]) -> Plan:
-    """The plan; `given` are the options, None where one wasn't.
+def plan_of(
+    name: str, entries: Sequence[tuple[Scenario, Sequence[Contestant]]], given: Mapping[str, Any], jobs: int
+) -> Plan:
+    """The plan; `given` are the options, None where one wasn't. jobs: how many processes will work on it.
 
     Raises:
         StudyError: a value is wrong. UnknownName: there is no such adapter, or it doesn't stage a task.
@@ -96,6 +99,7 @@ def plan_of(name: str, entries: Sequence[tuple[Scenario, Sequence[Contestant]]],
             evaluations=given["evaluations"] or standard.evaluations, rollouts=given["rollouts"] or standard.rollouts
         ),
         oracle=ORACLE,
+        processes=jobs if adapter == WITHOUT_PHYSICS else None,
     )
 
 

@@ -35,6 +35,11 @@ class Place:
     jobs: int | None
     resume: bool
 
+    @property
+    def processes(self) -> int:
+        """How many at a time."""
+        return self.jobs or os.cpu_count() or 1
+
     def folder(self, name: str) -> Path:
         """The study's folder."""
         return self.out or (self.data_dir or Settings().data_dir) / STUDIES / name
@@ -86,13 +91,12 @@ def run_study(
     folder = Folder(place.folder(name))
     chosen = _planned_before(name, folder, given) if place.resume else plan()
     surroundings = builders(chosen.adapter)
-    jobs = place.jobs or os.cpu_count() or 1
     with _terminated(), folder.worked_on():
         if not place.resume:
             folder.begin(chosen, versions())
         try:
-            with Screen(console, folder, chosen, jobs) as screen:
-                ended = execute(chosen, folder.path, surroundings, jobs, screen.watch)
+            with Screen(console, folder, chosen, place.processes) as screen:
+                ended = execute(chosen, folder.path, surroundings, place.processes, screen.watch)
         finally:  # an interrupted study, too, shows what it has
             outcomes = write_results(folder, chosen)
             figures = write_figures(folder, chosen)

@@ -26,8 +26,11 @@ class Course(Protocol):
     def updates(self) -> int:
         """Gradient steps taken so far."""
 
-    def step(self) -> None:
-        """One decision, and the training that it owes."""
+    def decide(self) -> None:
+        """One decision, and what follows from it. The training that it owes comes by `learn`."""
+
+    def learn(self) -> None:
+        """Take every gradient step that is owed."""
 
     def succeeds(self, seed: int) -> bool:
         """One rollout of the deterministic policy from the start that this seed gives; nothing is learned from it."""
@@ -122,44 +125,47 @@ class FeedbackCourse(_SkillCourse):
 
     def __init__(self, stage: Stage, learner: Algorithm, problem: Problem) -> None:
         super().__init__(stage)
-        self._learner = learner
+        self.learner = learner
         self._problem = problem
         self._labels = Labels(stage.folder / LABELS, problem)
 
     @property
     def updates(self) -> int:
         """Gradient steps taken so far."""
-        return self._learner.policy_version
+        return self.learner.policy_version
 
-    def step(self) -> None:
-        """One proposal and its feedback."""
+    def decide(self) -> None:
+        """One proposal and its feedback; carried out if that is good."""
         state = self._episodes.state
-        call = self._learner.propose(state).call
+        call = self.learner.propose(state).call
         value = self._stage.task.judge(state, call)
         self.counts.decisions += 1
         label = Label(self.counts.decisions, state, call, value, near(self._problem, state, call))
         self._labels.append(label)
-        self._learner.add([label])
-        while self._learner.owed_updates:
-            self._learner.update()
+        self.learner.add([label])
         if value == 1:
             self._execute(call)
 
+    def learn(self) -> None:
+        """Take every gradient step that is owed."""
+        while self.learner.owed_updates:
+            self.learner.update()
+
     def succeeds(self, seed: int) -> bool:
         """One rollout of the deterministic policy."""
-        return self._judged.rollout(seed, lambda state: self._learner.propose(state, deterministic=True).call)
+        return self._judged.rollout(seed, lambda state: self.learner.propose(state, deterministic=True).call)
 
     def save(self, learner: Path) -> Mapping[str, Any]:
         """Write the learner, and bring the labels to the disk."""
         self._labels.sync()
-        self._learner.save(learner)
+        self.learner.save(learner)
         return self._saved()
 
     def load(self, learner: Path, saved: Mapping[str, Any]) -> None:
         """Networks from the checkpoint; labels, which it doesn't hold, from their file."""
         self._restore(saved)
-        self._learner.load(learner)
-        self._learner.restore(self._labels.keep(self.counts.decisions))
+        self.learner.load(learner)
+        self.learner.restore(self._labels.keep(self.counts.decisions))
 
     def close(self) -> None:
         """Release robots and file."""
@@ -179,7 +185,7 @@ class RewardCourse(_SkillCourse):
         """Gradient steps taken so far."""
         return self._learner.policy_version
 
-    def step(self) -> None:
+    def decide(self) -> None:
         """One skill and its reward."""
         state = self._episodes.state
         call = self._learner.propose(state).call
@@ -187,6 +193,9 @@ class RewardCourse(_SkillCourse):
         done = self._execute(call)
         # the horizon and a violation cut the episode short; only success ends the task
         self._learner.observe(state, call, float(done.success), done.state, done.success)
+
+    def learn(self) -> None:
+        """Take every gradient step that is owed."""
         while self._learner.owed_updates:
             self._learner.update()
 

@@ -6,7 +6,7 @@ import multiprocessing
 import os
 import signal
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from multiprocessing.connection import wait as wait_for_any
@@ -41,7 +41,7 @@ def execute(plan: Plan, path: Path, builders: Builders, jobs: int, watch: Callab
     """
     folder = Folder(path)
     ended = {run.id: folder.progress(run.id, live=False) for run in plan.runs}
-    todo = [run for run in plan.runs if ended[run.id].state != "finished"]
+    todo = [group for group in plan.groups if any(ended[run.id].state != "finished" for run in group)]
     if not todo:
         return ended
     for name in THREADS:  # read when a library is loaded, so it has to be there before a process starts
@@ -49,15 +49,16 @@ def execute(plan: Plan, path: Path, builders: Builders, jobs: int, watch: Callab
     context = multiprocessing.get_context("spawn")
     stop = context.Event()
     pool = ProcessPoolExecutor(min(jobs, len(todo)), context, _begin, (stop,))
-    going: dict[Future[Progress], Run] = {}
+    going: dict[Future[Sequence[Progress]], Sequence[Run]] = {}
     try:
         while todo or going:
-            busy = {run.id for run in [*going.values(), *todo]}
-            for run in [run for run in todo if run.oracle not in busy][: jobs - len(going)]:
-                todo.remove(run)
-                going[pool.submit(_work, run, plan, path, builders)] = run
+            busy = {run.id for group in [*going.values(), *todo] for run in group}
+            ready = [group for group in todo if not any(run.oracle in busy for run in group)]
+            for group in ready[: jobs - len(going)]:
+                todo.remove(group)
+                going[pool.submit(_work, group, plan, path, builders)] = group
             for future in wait(going, timeout=POLL, return_when=FIRST_COMPLETED).done:
-                ended[going.pop(future).id] = future.result()
+                ended |= {run.id: each for run, each in zip(going.pop(future), future.result(), strict=True)}
             watch()
     except BrokenProcessPool as error:
         raise ProcessDied(
@@ -70,8 +71,8 @@ def execute(plan: Plan, path: Path, builders: Builders, jobs: int, watch: Callab
     return ended
 
 
-def _work(run: Run, plan: Plan, path: Path, builders: Builders) -> Progress:
-    return work(run, plan, path, builders, _stop.is_set)
+def _work(group: Sequence[Run], plan: Plan, path: Path, builders: Builders) -> Sequence[Progress]:
+    return work(group, plan, path, builders, _stop.is_set)
 
 
 def _begin(stop: Event) -> None:

@@ -74,8 +74,8 @@ class LowLevelCourse:
         """Gradient steps taken so far."""
         return self._learner.policy_version
 
-    def step(self) -> None:
-        """One action and the training that it owes."""
+    def decide(self) -> None:
+        """One action."""
         state, counts = self._state, self.counts
         action = self._learner.act(state)
         after, reward, terminated, truncated, info = self._stage.env.step(action)
@@ -87,11 +87,14 @@ class LowLevelCourse:
         counts.successes += terminated
         counts.violations += len(info["violations"])
         self._observe(state, action, float(reward), after, terminated)
-        while self._learner.owed_updates:
-            self._learner.update()
         if terminated or truncated:
             counts.episodes += 1
             self._begin()
+
+    def learn(self) -> None:
+        """Take every gradient step that is owed."""
+        while self._learner.owed_updates:
+            self._learner.update()
 
     def succeeds(self, seed: int) -> bool:
         """One rollout of the deterministic policy."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from enum import StrEnum
 from typing import Annotated, Any, Literal
@@ -145,7 +146,7 @@ class Protocol(Frozen):
 
 
 class Run(Frozen):
-    """One contestant in one scenario from one seed: one process's work."""
+    """One contestant in one scenario from one seed."""
 
     id: str
     contestant: Contestant
@@ -170,6 +171,23 @@ class Plan(Frozen):
     seeds: Annotated[tuple[int, ...], Field(min_length=1)]
     protocol: Protocol
     runs: Annotated[tuple[Run, ...], Field(min_length=1)]
+    together: Annotated[int, Field(ge=1)] = 1
+    """Seeds of one curve whose learners of judged skills train in one pass, in one process. Without physics that pays:
+    training is most of the work. It is part of the plan because it changes the rounding of what is learned."""
+
+    @property
+    def groups(self) -> tuple[tuple[Run, ...], ...]:
+        """Runs by process: those that train together, and every other by itself; in order of their first."""
+        groups: list[list[Run]] = []
+        latest: dict[tuple[str, str], list[Run]] = {}
+        for run in self.runs:
+            curve = run.scenario.name, run.contestant.name
+            group = latest.get(curve)
+            if group is None or len(group) >= self.together or run.contestant.kind != "feedback":
+                group = latest[curve] = []
+                groups.append(group)
+            group.append(run)
+        return tuple(tuple(group) for group in groups)
 
     @property
     def scenarios(self) -> tuple[Scenario, ...]:
@@ -193,6 +211,8 @@ class Plan(Frozen):
 ORACLE_STEPS = 8000
 """Least budget of a learner that judges: twice what the preset `quick` of SAC takes to learn Reaching without physics
 (docs/baselines.md)."""
+MOST_TOGETHER = 8
+"""Learners of one pass: with more, what they read no longer fits into a core's cache, and little is saved."""
 STEPS_OF_A_SKILL = 5
 """Low-level steps of the shortest skills here, reaches of some centimetres (the paper: typically around 100). A run of
 judged skills may take as many decisions as its budget would pay if every one were that short and executed."""
@@ -208,12 +228,14 @@ def planned(
     protocol: Protocol,
     oracle: Contestant,
     oracle_steps: int = ORACLE_STEPS,
+    processes: int | None = None,
 ) -> Plan:
     """The runs of a study, seed by seed: what is interrupted has something of everything.
 
     budgets: scenario -> budget; the usual one where it is silent. oracle: the learner that judges low-level actions; it
     is trained first, from the first seed, on the same task without physics, as long as those whom it judges and for
-    `oracle_steps` at least: with physics it would never meet the reward (docs/baselines.md).
+    `oracle_steps` at least: with physics it would never meet the reward (docs/baselines.md). processes: so many will
+    work on it, and seeds of one curve may share one; None: every run has its own.
 
     Raises:
         StudyError: nothing is left to run, or a budget is below 1.
@@ -234,7 +256,17 @@ def planned(
     if not runs:
         raise StudyError("the study has nothing to run", remedy="name at least one algorithm, task and seed")
     ordered = sorted(runs, key=lambda run: (run.seed, run.shown))  # stable; an oracle before those whom it judges
-    return Plan(name=name, adapter=adapter, seeds=tuple(seeds), protocol=protocol, runs=tuple(ordered))
+    curves = sum(each.kind == "feedback" for _, contestants in entries for each in contestants)
+    together = 1 if processes is None or not curves else _together(len(seeds), curves, processes)
+    return Plan(
+        name=name, adapter=adapter, seeds=tuple(seeds), protocol=protocol, runs=tuple(ordered), together=together
+    )
+
+
+def _together(seeds: int, curves: int, processes: int) -> int:
+    """As many seeds of a curve in one process as leave no other process without work, and no more than `MOST`."""
+    parts = max(math.ceil(processes / curves), math.ceil(seeds / MOST_TOGETHER))
+    return math.ceil(seeds / parts)
 
 
 def _run(contestant: Contestant, scenario: Scenario, seed: int, budget: int, oracle: str | None = None) -> Run:

@@ -4,6 +4,7 @@
 - `runs/<id>/run.json`: everything that a run was made of; `evaluations.csv`: a row an evaluation
 - `runs/<id>/progress.json`: how far it is, for whoever watches
 - `runs/<id>/state.json` and the files it names: from where it goes on after it was interrupted
+- `together/<id of the first>.json`: the same of runs that share a process, all at the same moment
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from __future__ import annotations
 import contextlib
 import fcntl
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
@@ -23,7 +24,7 @@ from agent.study.plan import Axis, Plan, Run, StudyError
 
 STUDY, RESULTS, TABLE, FIGURES, RUNS = "study.json", "results.csv", "table.md", "figures", "runs"
 RUN, EVALUATIONS, PROGRESS, STATE = "run.json", "evaluations.csv", "progress.json", "state.json"
-LOCK = ".lock"
+TOGETHER, LOCK = "together", ".lock"
 
 State = Literal["waiting", "running", "interrupted", "finished", "failed"]
 
@@ -157,6 +158,36 @@ class Folder:
                 return Checkpoint.model_validate(read_json(path))
         except FileNotFoundError:
             return None
+
+    def checkpoints(self, group: Sequence[Run]) -> dict[str, Checkpoint]:
+        """From where runs of one process go on, by id; those that aren't in it begin.
+
+        Raises:
+            StudyError: a file is damaged.
+        """
+        if len(group) == 1:
+            alone = self.checkpoint(group[0].id)
+            return {} if alone is None else {group[0].id: alone}
+        path = self._together(group)
+        remedy = f"delete it and the folders of its runs ({', '.join(run.id for run in group)}): they are done anew"
+        try:
+            with readable(path, self.path, remedy):
+                found = {run_id: Checkpoint.model_validate(each) for run_id, each in read_json(path).items()}
+        except FileNotFoundError:
+            return {}
+        return {run_id: each for run_id, each in found.items() if (self.run(run_id) / RUN).is_file()}
+
+    def keep(self, group: Sequence[Run], found: Mapping[str, Checkpoint]) -> None:
+        """From here on these checkpoints count, all at once."""
+        content = {run_id: each.model_dump(mode="json") for run_id, each in found.items()}
+        if len(group) == 1:
+            write_json(self.run(group[0].id) / STATE, content[group[0].id])
+            return
+        self._together(group).parent.mkdir(exist_ok=True)
+        write_json(self._together(group), content)
+
+    def _together(self, group: Sequence[Run]) -> Path:
+        return self.path / TOGETHER / f"{group[0].id}.json"
 
     def progress(self, run_id: str, *, live: bool) -> Progress:
         """How far a run is. live: whether a process works on the study; without, a run that was going is not now.

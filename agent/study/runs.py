@@ -1,65 +1,132 @@
-"""One run from its beginning, or from where it was interrupted, to its budget. Runs in a process of its own."""
+"""Runs of one process, from their beginning or from where they were interrupted, to their budgets.
+
+Most often that is one run. Where there is no physics, seeds of one curve share a process, in which they decide in turns
+and learn in one pass.
+"""
 
 from __future__ import annotations
 
+import contextlib
 import fcntl
 import logging
 import math
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from agent.algorithm import AgentError
 from agent.study.algorithms import Builders, course
-from agent.study.courses import Course
+from agent.study.courses import LABELS, Course, FeedbackCourse
 from agent.study.episodes import FIRST_START
 from agent.study.evaluations import Row, append_row, keep_rows
 from agent.study.files import write_json
 from agent.study.plan import Axis, Plan, Run, StudyError
-from agent.study.records import AGAIN, EVALUATIONS, LOCK, PROGRESS, RUN, RUNS, STATE, Checkpoint, Folder, Progress
+from agent.study.records import AGAIN, EVALUATIONS, LOCK, PROGRESS, RUN, RUNS, Checkpoint, Folder, Progress
 from agent.study.versions import versions
 from robot_adapters.base import AdapterError
 
 log = logging.getLogger("seed.study")
 
 TELL_EVERY = 0.5
-"""s between two notes of how far a run is."""
+"""s of a run between two notes of how far it is."""
 
 Stop = Callable[[], bool]
 """Whether to end now; asked between any two decisions and rollouts."""
 
 
-def work(run: Run, plan: Plan, path: Path, builders: Builders, stop: Stop) -> Progress:
-    """Do a run of the study in `path`, or what is left of it.
+def work(group: Sequence[Run], plan: Plan, path: Path, builders: Builders, stop: Stop) -> list[Progress]:
+    """Do runs of the study in `path`, or what is left of them; how far each came. Several are one of `Plan.groups`.
 
     What goes wrong ends the run as `failed` and says why; the study's other runs go on.
     """
     import torch  # noqa: PLC0415  the planning process needs none of it
 
     torch.set_num_threads(1)
-    folder = Folder(path).run(run.id)
-    folder.mkdir(parents=True, exist_ok=True)
-    with (folder / LOCK).open("ab") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)  # the orphan of a killed study may still be ending
-        worker = _Worker(run, plan, folder)
-        if worker.progress.state == "finished":
-            return worker.progress
+    folder = Folder(path)
+    with contextlib.ExitStack() as held:
+        for run in group:
+            folder.run(run.id).mkdir(parents=True, exist_ok=True)
+            lock = held.enter_context((folder.run(run.id) / LOCK).open("ab"))
+            fcntl.flock(lock, fcntl.LOCK_EX)  # the orphan of a killed study may still be ending
+        workers = [_Worker(run, plan, folder, len(group)) for run in group]
+        _Group(workers, group, folder).work(builders, stop)
+        return [worker.progress for worker in workers]
+
+
+class _Group:
+    """Runs that go on at the same time: all decide, then all learn; one checkpoint is of all of them."""
+
+    def __init__(self, workers: Sequence[_Worker], group: Sequence[Run], folder: Folder) -> None:
+        self._workers = workers
+        self._group = group
+        self._folder = folder
+        self._checkpoints: dict[str, Checkpoint] = {}
+
+    def work(self, builders: Builders, stop: Stop) -> None:
+        """Train and evaluate until every budget is used up, or until `stop`."""
+        begun = [worker for worker in self._workers if worker.progress.state != "finished"]
+        with contextlib.ExitStack() as held:
+            found, damage = self._found()
+            for worker in begun:
+                with worker.answering():
+                    if damage is not None:
+                        raise damage
+                    worker.begin(builders, found.get(worker.id))
+                    held.callback(worker.course.close)
+            going = begun
+            while going := [worker for worker in going if worker.going]:
+                if stop() or not self._evaluated(going, stop):
+                    break
+                going = [worker for worker in going if worker.going]
+                for worker in going:
+                    with worker.answering():
+                        worker.course.decide()
+                self._learn([worker for worker in going if worker.going])
+                for worker in going:
+                    worker.tell_now_and_then()
+            for worker in going:
+                worker.tell("interrupted")
+
+    def _found(self) -> tuple[Mapping[str, Checkpoint], StudyError | None]:
         try:
-            oracle = None if run.oracle is None else trained(Folder(path), run.oracle)
-            write_json(folder / RUN, _described(run, plan, oracle))
-            each = course(run, builders, folder, oracle)
-            try:
-                worker.train(each, stop)
-            finally:
-                each.close()
-        except (AgentError, AdapterError) as error:
-            worker.tell("failed", error=f"{error}; {error.remedy}")
-        except Exception as error:  # what nobody foresaw mustn't end the other runs; it is logged with its traceback
-            log.exception("the run %s failed", run.id)
-            worker.tell("failed", error=f"{type(error).__name__}: {error}")
-        return worker.progress
+            self._checkpoints = self._folder.checkpoints(self._group)
+        except StudyError as error:
+            return {}, error
+        return self._checkpoints, None
+
+    def _evaluated(self, going: Sequence[_Worker], stop: Stop) -> bool:
+        """Evaluate those that are due, and save; False where `stop` came in between, and nothing counts."""
+        due = [worker for worker in going if worker.due]
+        for worker in due:
+            with worker.answering():
+                if not worker.evaluate(stop):
+                    return False
+        if due:
+            for worker in going:
+                with worker.answering():
+                    self._checkpoints[worker.id] = worker.save()
+            self._folder.keep(self._group, self._checkpoints)
+            for worker in going:
+                if worker.going:
+                    worker.tidy(self._checkpoints[worker.id].learner)
+        for worker in due:
+            worker.tell_evaluated()
+        return True
+
+    def _learn(self, going: Sequence[_Worker]) -> None:
+        """Take every step that is owed: learners of judged skills in one pass."""
+        from agent.seed import Seed  # noqa: PLC0415  loads torch
+        from agent.stacked import StackedSeeds  # noqa: PLC0415  as above
+
+        stacked = [each.course.learner for each in going if isinstance(each.course, FeedbackCourse)]
+        if len(going) > 1:
+            with contextlib.suppress(AgentError):  # whose losses diverged is found out below
+                StackedSeeds([each for each in stacked if isinstance(each, Seed)]).work_off()
+        for worker in going:
+            with worker.answering():
+                worker.course.learn()
 
 
 def trained(folder: Folder, run_id: str) -> Path:
@@ -78,43 +145,67 @@ def trained(folder: Folder, run_id: str) -> Path:
 
 
 class _Worker:
-    """The course's bookkeeping: when to evaluate, what to write down, what others may see."""
+    """A run's bookkeeping: when to evaluate, what to write down, what others may see."""
 
-    def __init__(self, run: Run, plan: Plan, folder: Path) -> None:
+    course: Course
+
+    def __init__(self, run: Run, plan: Plan, folder: Folder, company: int) -> None:
+        """company: how many runs share the process, itself included."""
+        self.id = run.id
         self._run = run
-        self._protocol = plan.protocol
-        self._folder = folder
+        self._plan = plan
+        self._study = folder
+        self._folder = folder.run(run.id)
+        self._company = company
         self._evaluated = -1
         """The newest evaluation; 0 is the one before any training."""
         self._earlier = 0.0
         """Seconds spent before this process took over."""
         self._began = time.monotonic()
         self._told = -math.inf
-        self._first: float | None = None
-        self.progress = Folder(folder.parent.parent).progress(run.id, live=False)
+        self._first: int | None = None
+        self.progress = folder.progress(run.id, live=False)
 
-    def train(self, each: Course, stop: Stop) -> None:
-        """Train and evaluate until the budget is used up, or until `stop`."""
-        self._load(each)
-        while not stop():
-            due = self._due(each)
-            if due > self._evaluated and not self._evaluate(each, due, stop):
-                break
-            if due == self._protocol.evaluations:
-                self.tell("finished", each)
-                return
-            each.step()
-            if time.monotonic() - self._told >= TELL_EVERY:
-                self.tell("running", each)
-        self.tell("interrupted", each)
+    @property
+    def going(self) -> bool:
+        """Whether something is left to do here."""
+        return self.progress.state == "running"
 
-    def tell(self, state: Any, each: Course | None = None, error: str | None = None) -> None:
+    @contextlib.contextmanager
+    def answering(self) -> Iterator[None]:
+        """What goes wrong inside ends this run, and no other."""
+        try:
+            yield
+        except (AgentError, AdapterError) as error:
+            self.tell("failed", error=f"{error}; {error.remedy}")
+        except Exception as error:  # what nobody foresaw mustn't end the other runs; it is logged with its traceback
+            log.exception("the run %s failed", self.id)
+            self.tell("failed", error=f"{type(error).__name__}: {error}")
+
+    def begin(self, builders: Builders, found: Checkpoint | None) -> None:
+        """Set everything up, and go on from a checkpoint if there is one; what came after it is done again."""
+        self.progress = Progress()
+        oracle = None if self._run.oracle is None else trained(self._study, self._run.oracle)
+        write_json(self._folder / RUN, _described(self._run, self._plan, oracle))
+        if found is None:
+            (self._folder / LABELS).unlink(missing_ok=True)
+        self.course = course(self._run, builders, self._folder, oracle)
+        rows = [] if found is None else self._rows(found.evaluated)
+        if found is not None:
+            self.course.load(self._folder / found.learner, found.course)
+            self._evaluated, self._earlier = found.evaluated, found.seconds
+            self.progress = Progress(evaluations=found.evaluated, success_rate=rows[-1].success_rate)
+        keep_rows(self._folder / EVALUATIONS, rows)
+        self._began = time.monotonic()
+        self.tell("running")
+
+    def tell(self, state: Any, error: str | None = None) -> None:
         """Write down how far it is, for whoever watches."""
         now = time.monotonic()
-        counts: Mapping[str, int] = {} if each is None else asdict(each.counts)
+        counts: Mapping[str, int] = {}
         rate = None
-        if each is not None:
-            at = self._at(each)
+        if error is None:
+            counts, at = asdict(self.course.counts), self._at()
             self._first = at if self._first is None else self._first
             rate = (at - self._first) / (now - self._began) if now > self._began else None
         self.progress = self.progress.model_copy(
@@ -123,79 +214,87 @@ class _Worker:
         write_json(self._folder / PROGRESS, self.progress.model_dump(mode="json"))
         self._told = now
 
-    def _evaluate(self, each: Course, number: int, stop: Stop) -> bool:
-        """Roll out, write the row and a checkpoint; False where `stop` came in between, and nothing was written."""
-        succeeded = 0
-        for rollout in range(self._protocol.rollouts):
+    def tell_now_and_then(self) -> None:
+        """The same where it is time to and nothing has ended."""
+        if self.going and time.monotonic() - self._told >= TELL_EVERY * self._company:
+            self.tell("running")
+
+    def tell_evaluated(self) -> None:
+        """The same after an evaluation that counts; the last one ends the run."""
+        if self.going:
+            self.tell("finished" if self._evaluated == self._plan.protocol.evaluations else "running")
+
+    @property
+    def due(self) -> bool:
+        """Whether an evaluation is."""
+        return self._number > self._evaluated
+
+    def evaluate(self, stop: Stop) -> bool:
+        """Roll out and write the row; False where `stop` came in between, and nothing was written."""
+        number, rollouts, succeeded = self._number, self._plan.protocol.rollouts, 0
+        for rollout in range(rollouts):
             if stop():
                 return False
-            succeeded += each.succeeds(FIRST_START + number * self._protocol.rollouts + rollout)
+            succeeded += self.course.succeeds(FIRST_START + number * rollouts + rollout)
         row = Row(
             number,
-            **asdict(each.counts),
-            updates=each.updates,
-            rollouts=self._protocol.rollouts,
+            **asdict(self.course.counts),
+            updates=self.course.updates,
+            rollouts=rollouts,
             rollouts_succeeded=succeeded,
             seconds=round(self._seconds(), 3),
         )
         append_row(self._folder / EVALUATIONS, row)
         self._evaluated = number
-        self._save(each)
         self.progress = self.progress.model_copy(update={"evaluations": number, "success_rate": row.success_rate})
-        self.tell("running", each)
         return True
 
-    def _save(self, each: Course) -> None:
-        learner = f"learner-{self._evaluated}.ckpt"
-        saved = each.save(self._folder / learner)
-        found = Checkpoint(learner=learner, evaluated=self._evaluated, seconds=self._seconds(), course=saved)
-        write_json(self._folder / STATE, found.model_dump(mode="json"))  # from here on the new checkpoint counts
+    def save(self) -> Checkpoint:
+        """Write down from where it could go on. It counts once `Folder.keep` has been told."""
+        learner = f"learner-{self.course.counts.decisions}.ckpt"
+        saved = self.course.save(self._folder / learner)
+        return Checkpoint(learner=learner, evaluated=self._evaluated, seconds=self._seconds(), course=saved)
+
+    def tidy(self, newest: str) -> None:
+        """Delete the learners of checkpoints that no longer count."""
         for old in self._folder.glob("learner-*.ckpt"):
-            if old.name != learner:
+            if old.name != newest:
                 old.unlink()
 
-    def _load(self, each: Course) -> None:
-        """Go on from the newest checkpoint, if there is one; what came after it is forgotten, and done again."""
-        study, run = Folder(self._folder.parent.parent), self._run.id
-        found, rows = study.checkpoint(run), []
-        self.progress = Progress()
-        if found is not None:
-            rows = [row for row in study.rows(run) if row.evaluation <= found.evaluated]
-            numbers = [row.evaluation for row in rows]  # a long skill may skip some
-            if not numbers or (numbers[0], numbers[-1]) != (0, found.evaluated) or numbers != sorted(set(numbers)):
-                raise StudyError(
-                    f"{study.path.name}/{RUNS}/{run}/{EVALUATIONS} lacks evaluations up to {found.evaluated}, from "
-                    "where the run would go on",
-                    remedy=AGAIN,
-                )
-            each.load(self._folder / found.learner, found.course)
-            self._evaluated, self._earlier = found.evaluated, found.seconds
-            rate = rows[-1].success_rate
-            self.progress = Progress(evaluations=found.evaluated, success_rate=rate)
-        keep_rows(self._folder / EVALUATIONS, rows)
-        self._began = time.monotonic()
-        self.tell("running", each)
+    def _rows(self, evaluated: int) -> list[Row]:
+        rows = [row for row in self._study.rows(self.id) if row.evaluation <= evaluated]
+        numbers = [row.evaluation for row in rows]  # a long skill may skip some
+        if not numbers or (numbers[0], numbers[-1]) != (0, evaluated) or numbers != sorted(set(numbers)):
+            raise StudyError(
+                f"{self._study.path.name}/{RUNS}/{self.id}/{EVALUATIONS} lacks evaluations up to {evaluated}, from "
+                "where the run would go on",
+                remedy=AGAIN,
+            )
+        return rows
 
-    def _due(self, each: Course) -> int:
+    @property
+    def _number(self) -> int:
         """The evaluation that is due by now."""
-        run, counts = self._run, each.counts
-        share = self._at(each) / run.budget
+        run, counts, evaluations = self._run, self.course.counts, self._plan.protocol.evaluations
+        share = self._at() / run.budget
         if run.most_decisions is not None:
             share = max(share, counts.decisions / run.most_decisions)
-        return min(self._protocol.evaluations, math.floor(share * self._protocol.evaluations + 1e-9))
+        return min(evaluations, math.floor(share * evaluations + 1e-9))
 
-    def _at(self, each: Course) -> int:
-        low_level = self._run.scenario.axis is Axis.LOW_LEVEL_STEPS
-        return each.counts.low_level_steps if low_level else each.counts.decisions
+    def _at(self) -> int:
+        counts = self.course.counts
+        return counts.low_level_steps if self._run.scenario.axis is Axis.LOW_LEVEL_STEPS else counts.decisions
 
     def _seconds(self) -> float:
-        return self._earlier + time.monotonic() - self._began
+        """Its share of the process's time."""
+        return self._earlier + (time.monotonic() - self._began) / self._company
 
 
 def _described(run: Run, plan: Plan, oracle: Path | None) -> dict[str, Any]:
     """Everything that a run was made of."""
     return {
         **run.model_dump(mode="json"),
+        "together": [each.id for group in plan.groups if run in group for each in group],
         "adapter": plan.adapter,
         "protocol": plan.protocol.model_dump(mode="json"),
         "first_evaluation_seed": FIRST_START,

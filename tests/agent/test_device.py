@@ -130,7 +130,7 @@ def test_moving_keeps_what_adam_knows() -> None:
 
 def test_stacked_learners_are_trained_where_they_were_put() -> None:
     """On the CPU in place of a card."""
-    stacks = [StackedSeeds(of_task("stacking"), settings("recommended"), (1, 2)) for _ in range(2)]
+    stacks = [StackedSeeds.fresh(of_task("stacking"), settings("recommended"), (1, 2)) for _ in range(2)]
     for each in stacks[1].learners:
         twinned(each)
     for stack in stacks:

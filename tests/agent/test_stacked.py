@@ -51,7 +51,7 @@ def assert_alike(one: Seed, other: Seed) -> None:
 def test_each_learns_what_it_would_learn_alone(preset: str, task: str) -> None:
     """Each from labels of its own."""
     given = [[judged(task, 6, seed=seed)[:3], judged(task, 6, seed=seed)[3:]] for seed in SEEDS]
-    stack = StackedSeeds(of_task(task), settings(preset), SEEDS)
+    stack = StackedSeeds.fresh(of_task(task), settings(preset), SEEDS)
     for part in (0, 1):
         for learner, labels in zip(stack.learners, given, strict=True):
             learner.add(labels[part])
@@ -68,7 +68,7 @@ def test_each_learns_what_it_would_learn_alone(preset: str, task: str) -> None:
 
 def test_learners_that_owe_differently_are_trained_apart() -> None:
     given = judged("stacking", 4)
-    stack = StackedSeeds(of_task("stacking"), settings("paper_sim"), SEEDS)
+    stack = StackedSeeds.fresh(of_task("stacking"), settings("paper_sim"), SEEDS)
     first, second, third = stack.learners
     for learner in (first, second):
         learner.add(given[:2])
@@ -86,7 +86,7 @@ def test_learners_that_owe_differently_are_trained_apart() -> None:
 def test_a_learner_leaves_the_stack_as_it_is(tmp_path: Path) -> None:
     """It may go on alone, be saved, and be loaded; the others learn on as if it were there."""
     given = judged("stacking", 4)
-    stack = StackedSeeds(of_task("stacking"), settings("paper_sim"), SEEDS[:2])
+    stack = StackedSeeds.fresh(of_task("stacking"), settings("paper_sim"), SEEDS[:2])
     for learner in stack.learners:
         learner.add(given[:2])
     stack.work_off()
@@ -105,7 +105,7 @@ def test_a_learner_leaves_the_stack_as_it_is(tmp_path: Path) -> None:
 
 
 def test_a_diverged_learner_stops_the_pass_before_anything_changed() -> None:
-    stack = StackedSeeds(of_task("stacking"), settings("paper_sim"), SEEDS[:2])
+    stack = StackedSeeds.fresh(of_task("stacking"), settings("paper_sim"), SEEDS[:2])
     for learner in stack.learners:
         learner.add(judged("stacking", 2))
     stack.update()
@@ -119,13 +119,13 @@ def test_a_diverged_learner_stops_the_pass_before_anything_changed() -> None:
 
 
 def test_nobody_owes_anything_at_the_start() -> None:
-    stack = StackedSeeds(of_task("stacking"), settings("paper_sim"), SEEDS)
+    stack = StackedSeeds.fresh(of_task("stacking"), settings("paper_sim"), SEEDS)
     assert stack.update() == [None, None, None]
 
 
 def test_a_batch_drawn_with_others_is_the_one_drawn_alone() -> None:
     """Bit for bit, moved and mirrored as it would be: each has its own dice."""
-    stack = StackedSeeds(of_task("collecting_toy"), settings("recommended"), SEEDS)
+    stack = StackedSeeds.fresh(of_task("collecting_toy"), settings("recommended"), SEEDS)
     singles = [Seed(of_task("collecting_toy"), settings("recommended"), seed) for seed in SEEDS]
     for seed, learner, single in zip(SEEDS, stack.learners, singles, strict=True):
         for each in (learner, single):

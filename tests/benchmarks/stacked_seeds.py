@@ -73,7 +73,7 @@ class _Run:
         low, high = state_bounds(task.state_fields)
         fields = position_fields(task.state_fields)
         problem = Problem(task.name, low, high, task.skills, keypoints=task.keypoints, position_fields=fields)
-        self.stack = StackedSeeds(problem, SeedSettings(**SEED.presets["recommended"]), range(self.seeds))
+        self.stack = StackedSeeds.fresh(problem, SeedSettings(**SEED.presets["recommended"]), range(self.seeds))
         factory = registry.adapter("kinematic")
         drawn = factory.settings.model_validate({"draw": False})
         self.robots = [factory(self.task_name, drawn) for _ in range(self.seeds)]
