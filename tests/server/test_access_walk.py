@@ -1,4 +1,4 @@
-"""Every route × role, over HTTP and the stream: each is answered to those who may, and refused to everyone else."""
+"""Every route by role, over HTTP and the stream: each is answered to those who may, and refused to everyone else."""
 
 from __future__ import annotations
 
@@ -117,7 +117,8 @@ async def scene(live: Serving) -> tuple[dict[str, int], int]:
     incident = await live.service.store.add_incident(here, execution_id=None, kind="halt", detail="", frames=[])
     practice = await live.http.post(f"/api/v1/experiments/{here}/practice", json={})
     known = {"proposal_id": proposal.id, "feedback_id": click.json()["id"], "incident_id": incident.id}
-    return known | {"experiment_id": here, "practice_id": practice.json()["id"], "execution_id": execution.id}, elsewhere
+    known |= {"experiment_id": here, "practice_id": practice.json()["id"], "execution_id": execution.id}
+    return known, elsewhere
 
 
 def believe_the_header(monkeypatch: pytest.MonkeyPatch, elsewhere: int) -> None:
