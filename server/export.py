@@ -1,17 +1,18 @@
-"""An experiment's feedback as a table: one line for each click and each correction, in the order they came."""
+"""An experiment's feedback as a table, one line for each click and each correction; and its metrics, one a label."""
 
 from __future__ import annotations
 
 import csv
 import io
 import json
-from collections.abc import AsyncIterator, Callable, Mapping, Sequence
+from collections.abc import AsyncIterator, Callable, Iterable, Mapping, Sequence
 from typing import Any, Literal
 
 from sqlalchemy import select
 from sqlalchemy.orm import Session
 
-from server.models import FeedbackRow, ProposalRow
+from server import store_records
+from server.models import FeedbackRow, MetricRow, ProposalRow
 from server.schemas_labels import answer_of
 from server.store import Store
 
@@ -50,6 +51,34 @@ async def feedback(store: Store, experiment_id: int, form: Form) -> AsyncIterato
         if not rows:
             return
         yield _csv(rows) if form == "csv" else "".join(json.dumps(row) + "\n" for row in rows)
+
+
+async def metrics(store: Store, experiment_id: int, form: Form) -> AsyncIterator[str]:
+    """Every metric point in the order they came; the columns are those of all points, by the alphabet."""
+    names = await store.read(lambda session: store_records.metric_names(session, experiment_id))
+    columns = ("feedback", "at", *names)
+    if form == "csv":
+        yield _lines([columns])
+    after = 0
+    while True:
+        rows, after = await store.read(_points(experiment_id, after))
+        if not rows:
+            return
+        if form == "csv":
+            yield _lines([[row.get(column, "") for column in columns] for row in rows])
+        else:
+            yield "".join(json.dumps(row) + "\n" for row in rows)
+
+
+def _points(experiment_id: int, after: int) -> Callable[[Session], tuple[list[dict[str, Any]], int]]:
+    def read(session: Session) -> tuple[list[dict[str, Any]], int]:
+        row = MetricRow
+        query = select(row).where(row.experiment_id == experiment_id, row.id > after).order_by(row.id).limit(CHUNK)
+        found = session.scalars(query).all()
+        rows = [{"feedback": each.feedback, "at": each.at.isoformat(), **each.data} for each in found]
+        return rows, found[-1].id if found else after
+
+    return read
 
 
 def _reading(experiment_id: int, after: int) -> Callable[[Session], tuple[list[dict[str, Any]], int]]:
@@ -114,8 +143,12 @@ def _rows(click: FeedbackRow, proposal: ProposalRow) -> list[dict[str, Any]]:
 
 
 def _csv(rows: Sequence[Mapping[str, Any]]) -> str:
+    return _lines([[_cell(row[column]) for column in COLUMNS] for row in rows])
+
+
+def _lines(rows: Iterable[Sequence[Any]]) -> str:
     written = io.StringIO()
-    csv.writer(written).writerows([_cell(row[column]) for column in COLUMNS] for row in rows)
+    csv.writer(written).writerows(rows)
     return written.getvalue()
 
 

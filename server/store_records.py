@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from datetime import timedelta
 from typing import Any
 
-from sqlalchemy import delete
+from sqlalchemy import delete, select
 from sqlalchemy.orm import Session
 
 from server.models import (
@@ -33,6 +33,15 @@ def add_metrics(session: Session, experiment_id: int, feedback: int, values: Map
     session.add(row)
     session.flush()
     return row
+
+
+def metric_names(session: Session, experiment_id: int) -> list[str]:
+    """What any of the points measures, by the alphabet."""
+    names: set[str] = set()
+    rows = select(MetricRow.data).where(MetricRow.experiment_id == experiment_id).order_by(MetricRow.id)
+    for data in session.scalars(rows.execution_options(yield_per=1000)):
+        names.update(data)
+    return sorted(names)
 
 
 def create_evaluation(

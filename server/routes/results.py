@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from fastapi import APIRouter, Query
+from fastapi.responses import StreamingResponse
 
-from server import comparing, store_curves, store_listing
+from server import comparing, export, store_curves, store_listing
 from server.routes.dependencies import LARGEST_ID, Id, Running, errors
 from server.schemas_curves import Comparison, Curves, Grouping, Measure, PaperFigures
 from server.schemas_listing import TagInfo
 
 router = APIRouter(tags=["results"])
+
+TABLE: dict[int | str, dict[str, Any]] = {
+    200: {"content": {media: {} for media in export.MEDIA_TYPES.values()}, "description": "The table"}
+}
 
 Points = Annotated[int, Query(ge=10, le=2000, description="about the most points of a curve")]
 Experiments = Annotated[
@@ -28,6 +33,25 @@ By = Annotated[
 async def get_curves(service: Running, experiment_id: Id, points: Points = 400) -> Curves:
     """Everything that changed in an experiment, as charts."""
     return await service.store.read(lambda s: store_curves.curves(s, experiment_id, points))
+
+
+@router.get(
+    "/experiments/{experiment_id}/exports/metrics",
+    response_class=StreamingResponse,
+    responses={**errors(404, 422), **TABLE},
+)
+async def export_metrics(
+    service: Running,
+    experiment_id: Id,
+    form: Annotated[export.Form, Query(alias="format", description="csv, or jsonl: one JSON object a line")] = "csv",
+) -> StreamingResponse:
+    """Every metric point, one a label: what the learner reported and what was counted by then."""
+    await service.store.experiment(experiment_id)
+    return StreamingResponse(
+        export.metrics(service.store, experiment_id, form),
+        media_type=export.MEDIA_TYPES[form],
+        headers={"Content-Disposition": f'attachment; filename="experiment-{experiment_id}-metrics.{form}"'},
+    )
 
 
 @router.get("/comparison", responses=errors(404, 422))

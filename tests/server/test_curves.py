@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import json
 from pathlib import Path
 
 import pytest
@@ -110,6 +112,24 @@ async def test_experiments_that_agree_are_one_curve_with_its_standard_error(stor
     assert [c.label for c in tagged.curves] == ["a", "none"]
     with pytest.raises(NotFound):
         await store.read(lambda s: comparing.compare(s, [999], "successes", []))
+
+
+async def test_metrics_are_exported_whole_with_every_column(tmp_path: Path) -> None:
+    async with serving(tmp_path) as live:
+        experiment = await live.experiment()
+        for number in range(1, 604):
+            values = {"successes": 1.0 * number} | ({"late": 0.5} if number > 600 else {})
+            await live.service.store.add_metrics(experiment, number, values)
+        address = f"/api/v1/experiments/{experiment}/exports/metrics"
+        table = list(csv.DictReader((await live.http.get(address)).text.splitlines()))
+        assert [(row["feedback"], row["successes"], row["late"]) for row in (table[0], table[-1])] == [
+            ("1", "1.0", ""),
+            ("603", "603.0", "0.5"),
+        ]
+        lines = (await live.http.get(address, params={"format": "jsonl"})).text.splitlines()
+        assert len(lines) == len(table) == 603
+        assert json.loads(lines[-1])["late"] == 0.5
+        check_problem(await live.http.get("/api/v1/experiments/99/exports/metrics"), 404)
 
 
 async def test_curves_comparison_and_the_papers_figures_over_http(tmp_path: Path) -> None:

@@ -1,28 +1,40 @@
-// Which page the address names.
+// Which page the address names. The judging page and the list come at once, the others when they are asked for.
 
-import { useEffect } from "react";
+import { type ComponentType, lazy, Suspense, useEffect } from "react";
 import { Header } from "./components/Header";
 import { t, useLanguage } from "./i18n";
 import { ExperimentsPage } from "./pages/ExperimentsPage";
-import { PracticePage } from "./pages/PracticePage";
-import { StudiesPage } from "./pages/StudiesPage";
-import { StudyPage } from "./pages/StudyPage";
 import { TrainerPage } from "./pages/TrainerPage";
 import { Link, usePath } from "./router";
 
-export function App() {
-  const path = usePath();
-  useLanguage(); // a new language draws everything below anew
+function later<Props extends object>(load: () => Promise<ComponentType<Props>>) {
+  return lazy(async () => ({ default: await load() }));
+}
+
+const PracticePage = later(async () => (await import("./pages/PracticePage")).PracticePage);
+const StudiesPage = later(async () => (await import("./pages/StudiesPage")).StudiesPage);
+const StudyPage = later(async () => (await import("./pages/StudyPage")).StudyPage);
+const NewExperimentPage = later(async () => (await import("./pages/NewExperimentPage")).NewExperimentPage);
+const ResultsPage = later(async () => (await import("./pages/ResultsPage")).ResultsPage);
+const ComparePage = later(async () => (await import("./pages/ComparePage")).ComparePage);
+
+/** What of an address belongs to one experiment, and its page. */
+const OF_EXPERIMENT = { practice: PracticePage, results: ResultsPage } as const;
+
+function Page({ path }: { path: string }) {
   const trainer = /^\/experiments\/(\d+)\/?$/.exec(path);
   useEffect(() => {
     if (!trainer) document.title = "SEED";
   }, [trainer]);
   if (trainer) return <TrainerPage key={trainer[1]} id={Number(trainer[1])} />;
-  const practice = /^\/experiments\/(\d+)\/practice\/?$/.exec(path);
-  if (practice) return <PracticePage key={practice[1]} id={Number(practice[1])} />;
+  const part = /^\/experiments\/(\d+)\/(\w+)\/?$/.exec(path);
+  const Part = OF_EXPERIMENT[part?.[2] as keyof typeof OF_EXPERIMENT];
+  if (part && Part) return <Part key={part[1]} id={Number(part[1])} />;
   const study = /^\/studies\/([^/]+)\/?$/.exec(path);
   if (study?.[1]) return <StudyPage key={study[1]} name={decodeURIComponent(study[1])} />;
   if (path === "/studies") return <StudiesPage />;
+  if (path === "/compare") return <ComparePage />;
+  if (path === "/experiments/new") return <NewExperimentPage />;
   if (path === "/" || path === "/experiments") return <ExperimentsPage />;
   return (
     <>
@@ -37,5 +49,26 @@ export function App() {
         </div>
       </main>
     </>
+  );
+}
+
+function Coming() {
+  return (
+    <>
+      <Header back />
+      <main className="page">
+        <div className="skeleton" role="status" aria-label={t("common.loading")} />
+      </main>
+    </>
+  );
+}
+
+export function App() {
+  const path = usePath();
+  useLanguage(); // a new language draws everything below anew
+  return (
+    <Suspense fallback={<Coming />}>
+      <Page path={path} />
+    </Suspense>
   );
 }

@@ -7,6 +7,8 @@ import type {
   AutoApproval,
   AutoApprovalRecord,
   Calibration,
+  Comparison,
+  Curves,
   Evaluation,
   Execution,
   Experiment,
@@ -16,9 +18,11 @@ import type {
   Feedback,
   Incident,
   LabelQuality,
+  Measure,
   MetricPage,
   MetricPoint,
   Mode,
+  PaperFigures,
   PracticeCard,
   PracticeProgress,
   PracticeResult,
@@ -27,6 +31,7 @@ import type {
   Reported,
   Study,
   StudySummary,
+  TagInfo,
   TaskInfo,
   TeacherInfo,
   TrainerFigures,
@@ -114,11 +119,30 @@ export async function catalogue(): Promise<Catalogue> {
   return { tasks, adapters, algorithms, teachers };
 }
 
-export const experiments = (cursor: string | null) =>
+/** A page of the experiments that `listing` (its query) asks for. */
+export const experiments = (listing: string, cursor: string | null) =>
   request<ExperimentPage>(
     "GET",
-    `/experiments?limit=50${cursor ? `&cursor=${encodeURIComponent(cursor)}` : ""}`,
+    `/experiments?limit=50${listing && `&${listing}`}${cursor ? `&cursor=${encodeURIComponent(cursor)}` : ""}`,
   );
+
+export const curves = (id: number) => request<Curves>("GET", `/experiments/${id}/curves`);
+
+export const comparison = (experiments: number[], measure: Measure, by: string[]) => {
+  const query = new URLSearchParams([
+    ...experiments.map((id) => ["experiment", String(id)]),
+    ["measure", measure],
+    ...by.map((each) => ["by", each]),
+  ]);
+  return request<Comparison>("GET", `/comparison?${query}`);
+};
+
+export const paperFigures = () => request<PaperFigures>("GET", "/paper-figures");
+
+export const tags = () => request<TagInfo[]>("GET", "/tags");
+
+export const setTags = (id: number, tags: string[]) =>
+  request<Experiment>("PATCH", `/experiments/${id}`, { tags });
 
 export const experiment = (id: number) => request<Experiment>("GET", `/experiments/${id}`);
 
@@ -160,6 +184,9 @@ export type QualityChange = Pick<ExperimentUpdate, "gold_rate"> | Pick<Experimen
 /** The stream tells of what has changed. */
 export const setQuality = (id: number, change: QualityChange) =>
   request<Experiment>("PATCH", `/experiments/${id}`, change);
+
+/** Where the metrics can be had as a table. */
+export const metricsTable = (id: number) => `${ROOT}/experiments/${id}/exports/metrics`;
 
 /** Where the feedback can be had as a table. */
 export const feedbackTable = (id: number, form: "csv" | "jsonl") =>

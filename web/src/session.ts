@@ -10,7 +10,7 @@ import { ME } from "./me";
 import { type Click, Outbox } from "./outbox";
 import { Recording } from "./recording";
 import { type Action, initial, reduce, type TrainerState } from "./state";
-import { type Connection, Stream } from "./stream";
+import { type Connection, Stream, streamUrl } from "./stream";
 import { Telling } from "./telling";
 import type { AutoApproval, Experiment, Problem, Reported, StreamEvent, Value, Verb } from "./wire";
 
@@ -32,8 +32,7 @@ export class Session {
     private readonly dispatch: Dispatch<Action>,
   ) {
     this.outbox = new Outbox(id, window.localStorage);
-    const scheme = location.protocol === "https:" ? "wss" : "ws";
-    this.stream = new Stream(`${scheme}://${location.host}/api/v1/experiments/${id}/stream`, {
+    this.stream = new Stream(streamUrl(id), {
       onEvent: this.onEvent,
       onFrame: (frame) => {
         this.recording.keep(frame);

@@ -9,6 +9,12 @@ const LONGEST_WAIT_MS = 8000;
 const PING_MS = 3000;
 const SILENCE_MS = 5000;
 
+/** Where an experiment's stream is. */
+export function streamUrl(id: number): string {
+  const scheme = location.protocol === "https:" ? "wss" : "ws";
+  return `${scheme}://${location.host}/api/v1/experiments/${id}/stream`;
+}
+
 export interface StreamHandlers {
   onEvent: (event: StreamEvent) => void;
   onFrame: (frame: Frame) => Promise<void>;

@@ -1,7 +1,21 @@
-// What the catalogue tells of one task or adapter; null, or no, until it is known.
+// What the catalogue tells, of everything or of one task or adapter; null until it is known.
 import { useEffect, useState } from "react";
 import * as http from "./http";
-import type { TaskInfo } from "./wire";
+import type { Problem, TaskInfo } from "./wire";
+
+export function useCatalogue(): { catalogue: http.Catalogue | null; problem: Problem | null } {
+  const [answer, setAnswer] = useState<{ catalogue: http.Catalogue | null; problem: Problem | null }>({
+    catalogue: null,
+    problem: null,
+  });
+  useEffect(() => {
+    http.catalogue().then(
+      (catalogue) => setAnswer({ catalogue, problem: null }),
+      (error: unknown) => setAnswer({ catalogue: null, problem: http.problemOf(error) }),
+    );
+  }, []);
+  return answer;
+}
 
 export function useTask(name: string | undefined): TaskInfo | null {
   const [task, setTask] = useState<TaskInfo | null>(null);

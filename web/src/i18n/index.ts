@@ -37,6 +37,9 @@ void library.init({
 /** The words for a key. Components that call it are drawn anew with the whole page when the language changes. */
 export const t = library.t;
 
+/** Whether there are words for a key that is made while the page runs. */
+export const known = (key: string): boolean => library.exists(key);
+
 /** A skill in words; those of a foreign task are called what it calls them. */
 export function skillName(skill: string): string {
   return library.exists(`skill.${skill}`) ? library.t(`skill.${skill as "pick"}`) : skill;

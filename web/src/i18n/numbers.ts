@@ -28,3 +28,9 @@ export function signed(value: number, digits = 2): string {
 }
 
 export const moment = (iso: string) => new Date(iso).toLocaleString(language());
+
+/** Three digits and a word for the thousands: on an axis there is little room. */
+export function compact(value: number): string {
+  const format = new Intl.NumberFormat(language(), { notation: "compact", maximumSignificantDigits: 3 });
+  return format.format(value).replace("-", "−");
+}
