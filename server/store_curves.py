@@ -11,7 +11,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from sqlalchemy import Integer, case, cast, extract, func, select
+from sqlalchemy import ColumnElement, Integer, case, cast, exists, extract, func, select
 from sqlalchemy.orm import Session
 
 from server.models import EvaluationRow, ExecutionRow, FeedbackRow, MetricRow, ProposalRow
@@ -156,8 +156,10 @@ def _labels(session: Session, experiment_id: int, points: int) -> list[Any]:
     """Means over buckets of successive labels."""
     value = value_now()
     label = (
-        select(FeedbackRow.id, FeedbackRow.proposal_id, value.label("value"))
+        select(FeedbackRow.id, value.label("value"), ProposalRow.predicted_feedback.label("predicted"))
+        .join(ProposalRow, ProposalRow.id == FeedbackRow.proposal_id)
         .where(
+            ProposalRow.purpose == "training",
             FeedbackRow.experiment_id == experiment_id,
             FeedbackRow.status == "stored",
             FeedbackRow.undone_at.is_(None),
@@ -166,9 +168,7 @@ def _labels(session: Session, experiment_id: int, points: int) -> list[Any]:
         .subquery()
     )
     number = func.row_number().over(order_by=label.c.id)
-    each = select(
-        number.label("n"), label.c.value, ProposalRow.predicted_feedback.label("predicted")
-    ).join_from(label, ProposalRow, ProposalRow.id == label.c.proposal_id).subquery()  # fmt: skip
+    each = select(number.label("n"), label.c.value, label.c.predicted).subquery()
     total = session.scalar(select(func.count()).select_from(each)) or 0
     bucket = (each.c.n - 1) // max(LEAST, -(-total // points))
     query = (
@@ -210,12 +210,12 @@ def _skills(session: Session, experiment_id: int, points: int) -> Chart:
     """Each skill's share of the proposals, bucket by bucket."""
     row = ProposalRow
     where = (row.experiment_id == experiment_id, row.purpose == "training")
-    last = session.scalar(select(func.max(row.number)).where(*where)) or 0
-    bucket = (row.number - 1) // max(LEAST, -(-last // points))
+    total = session.scalar(select(func.count(row.id)).where(*where)) or 0
+    numbered = select(row.skill, func.row_number().over(order_by=row.id).label("n")).where(*where).subquery()
+    bucket = (numbered.c.n - 1) // max(LEAST, -(-total // points))
     query = (
-        select(bucket, row.skill, func.count(row.id), func.max(row.number))
-        .where(*where)
-        .group_by(bucket, row.skill)
+        select(bucket, numbered.c.skill, func.count(), func.max(numbered.c.n))
+        .group_by(bucket, numbered.c.skill)
         .order_by(bucket)
     )
     counts: dict[int, dict[str, int]] = defaultdict(dict)
@@ -233,11 +233,17 @@ def _shares(counts: Mapping[int, Mapping[str, int]], skill: str) -> list[float |
     return [_rounded(each.get(skill, 0) / sum(each.values())) for each in counts.values()]
 
 
+def _training() -> ColumnElement[bool]:
+    """Of a feedback: people's or a teacher's, not an evaluation's own."""
+    proposal = ProposalRow
+    return exists().where(proposal.id == FeedbackRow.proposal_id, proposal.purpose == "training")
+
+
 def _throughput(session: Session, experiment_id: int, points: int) -> Chart:
     """Labels a minute while somebody labels."""
     row = FeedbackRow
     at = extract("epoch", row.received_at)
-    where = (row.experiment_id == experiment_id, row.status == "stored", row.undone_at.is_(None))
+    where = (row.experiment_id == experiment_id, row.status == "stored", row.undone_at.is_(None), _training())
     each = (
         select(
             func.row_number().over(order_by=row.id).label("n"),

@@ -1,5 +1,5 @@
 // A chart as an SVG document of its own, to be put into a paper: what is on the page, in colours that don't need it.
-import { type Drawn, extent, type Picture, rangeOf, ticks } from "./charting";
+import { type Drawn, extent, type Picture, powers, rangeOf, ticks } from "./charting";
 
 export interface Look {
   ink: string;
@@ -36,14 +36,17 @@ export function svgOf(
   const legend = lines.filter((line) => !line.behind);
   const height = HEIGHT + Math.ceil(legend.length / 3) * LINE;
   const bottom = HEIGHT - BOTTOM;
-  const [x0, x1] = window ?? extent(lines.flatMap((line) => line.x)) ?? [0, 1];
+  const log = picture.logarithmic ?? false;
+  const [x0, x1] = window ?? extent(lines.flatMap((line) => line.x.filter((x) => !log || x > 0))) ?? [0, 1];
   const within = lines.flatMap((line) =>
     [line.y, line.low ?? [], line.high ?? []].flatMap((column) =>
       column.filter((_, index) => (line.x[index] ?? 0) >= x0 && (line.x[index] ?? 0) <= x1),
     ),
   );
   const [y0, y1] = rangeOf(picture, extent(within));
-  const px = (x: number) => short(LEFT + ((x - x0) / (x1 - x0 || 1)) * (WIDTH - LEFT - RIGHT));
+  const along = (x: number) =>
+    log ? Math.log(Math.max(x, x0) / x0) / (Math.log(x1 / x0) || 1) : (x - x0) / (x1 - x0 || 1);
+  const px = (x: number) => short(LEFT + along(x) * (WIDTH - LEFT - RIGHT));
   const py = (y: number) => short(bottom - ((y - y0) / (y1 - y0 || 1)) * (bottom - TOP));
   const text = (x: number, y: number, words: string, more = "") =>
     `<text x="${x}" y="${y}" fill="${look.soft}" font-size="12" ${more}>${safe(words)}</text>`;
@@ -51,7 +54,7 @@ export function svgOf(
     `<path d="M${LEFT} ${py(y)}H${WIDTH - RIGHT}" stroke="${look.grid}"/>`,
     text(LEFT - 8, py(y) + 4, format(y), 'text-anchor="end"'),
   ]);
-  const below = ticks(x0, x1, 6).map((x) =>
+  const below = (log ? powers(x0, x1) : ticks(x0, x1, 6)).map((x) =>
     text(px(x), bottom + 18, x.toLocaleString("en"), 'text-anchor="middle"'),
   );
   const curves = lines.flatMap((line) => {

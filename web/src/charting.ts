@@ -22,6 +22,8 @@ export interface Picture {
   lines: Line[];
   /** Shares are shown in per cent, from 0 to 1. */
   share: boolean;
+  /** Some lines would be squeezed to nothing by the longest: the x axis is logarithmic, and has no 0. */
+  logarithmic?: boolean;
   /** Whether smoothing means something: counts that only grow stay as they are. */
   smoothable: boolean;
 }
@@ -99,8 +101,10 @@ export function drawn(picture: Picture, weight: number): Drawn[] {
 }
 
 /** All columns over the union of their points, null where one has none: x, then y, low and high of each line. */
-export function aligned(lines: Line[]): (number | null)[][] {
-  const points = [...new Set(lines.flatMap((line) => line.x))].sort((a, b) => a - b);
+export function aligned(lines: Line[], logarithmic = false): (number | null)[][] {
+  const points = [...new Set(lines.flatMap((line) => line.x))]
+    .filter((x) => !logarithmic || x > 0)
+    .sort((a, b) => a - b);
   const column = (x: number[], y: (number | null)[]) => {
     const at = new Map(x.map((each, index) => [each, y[index] ?? null]));
     return points.map((each) => at.get(each) ?? null);
@@ -133,6 +137,22 @@ export function rangeOf(picture: Picture, found: [number, number] | null): [numb
   if (low >= 0) return [0, high > 0 ? high * 1.08 : 1];
   const room = (high - low || 1) * 0.06;
   return [low - room, high + room];
+}
+
+/** How many times further than another a line may go before the axis is logarithmic. */
+const FAR = 4;
+
+export function isLogarithmic(lines: Line[]): boolean {
+  const ends = lines.map((line) => line.x.at(-1) ?? 0).filter((end) => end > 0);
+  return ends.length > 0 && Math.max(...ends) > FAR * Math.min(...ends);
+}
+
+/** Powers of ten from low to high, and the ends where there are fewer than two. */
+export function powers(low: number, high: number): number[] {
+  const first = Math.ceil(Math.log10(low) - 1e-9);
+  const last = Math.floor(Math.log10(high) + 1e-9);
+  const found = Array.from({ length: Math.max(0, last - first + 1) }, (_, index) => 10 ** (first + index));
+  return found.length < 2 ? [low, high] : found;
 }
 
 /** About `count` round numbers from low to high. */

@@ -1,5 +1,5 @@
 // What is compared, as the address says it, and how it lies in one picture with the paper's own curves.
-import { axisName, type Line, measureName, type Picture } from "./charting";
+import { axisName, isLogarithmic, type Line, measureName, type Picture } from "./charting";
 import { t } from "./i18n";
 import type { Comparison, Measure, PaperFigures } from "./wire";
 
@@ -76,14 +76,17 @@ export function pictureOfComparison(comparison: Comparison, figure: PaperFigure 
     x: curve.x,
     y: curve.y,
   }));
+  const lines = [...theirs, ...ours];
+  const logarithmic = isLogarithmic(lines);
   return {
     name: comparison.measure,
     title: measureName(comparison.measure),
-    about: "",
+    about: logarithmic ? t("studies.noteLogarithmic") : "",
+    logarithmic,
     axis: axisName(comparison.axis),
     share: SHARES.has(comparison.measure),
     smoothable: false,
-    lines: [...theirs, ...ours],
+    lines,
   };
 }
 

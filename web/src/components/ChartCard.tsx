@@ -77,12 +77,21 @@ function options({ width, height, picture, lines, format, onSpan, onRead }: Sett
     legend: { show: false },
     cursor: { y: false, drag: { x: true, y: false, dist: 6 }, points: { size: 7 } },
     scales: {
-      x: { time: false },
+      x: picture.logarithmic ? { time: false, distr: 3 } : { time: false },
       y: { range: (_u, low, high) => rangeOf(picture, low === null ? null : [low, high]) },
     },
     axes: [
-      { ...axis, grid: { show: false }, size: 28, values: (_u, values) => values.map(compact) },
-      { ...axis, size: 52, values: (_u, values) => values.map(format) },
+      {
+        ...axis,
+        grid: { show: false },
+        size: 28,
+        values: (_u, values) => values.map((value) => (value == null ? "" : compact(value))),
+      },
+      {
+        ...axis,
+        size: 52,
+        values: (_u, values) => values.map((value) => (value == null ? "" : format(value))),
+      },
     ],
     series,
     bands,
@@ -107,10 +116,11 @@ function usePlot(picture: Picture, lines: Drawn[], height: number, format: (valu
   const [span, setSpan] = useState<Span | null>(null);
   const [read, setRead] = useState<number | null>(null);
   const library = useLibrary();
-  const data = useMemo(() => aligned(lines) as uPlot.AlignedData, [lines]);
-  const shape = JSON.stringify(
+  const data = useMemo(() => aligned(lines, picture.logarithmic) as uPlot.AlignedData, [lines, picture]);
+  const shape = JSON.stringify([
+    picture.logarithmic,
     lines.map(({ color, dashed, behind, low, label }) => [color, dashed, behind, !low, label]),
-  );
+  ]);
   const newest = useRef({ picture, lines, data });
   newest.current = { picture, lines, data };
   useEffect(() => {

@@ -53,7 +53,7 @@ export function CompareTools({ compared, figures, onChange }: CompareToolsProps)
           <button
             key={each}
             type="button"
-            className="chip"
+            className="choice-chip"
             aria-pressed={by.includes(each)}
             data-testid={`by-${each}`}
             onClick={() =>

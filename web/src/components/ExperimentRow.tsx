@@ -2,7 +2,7 @@
 import { useState } from "react";
 import * as http from "../http";
 import { t } from "../i18n";
-import { moment, whole } from "../i18n/numbers";
+import { shortMoment, whole } from "../i18n/numbers";
 import { Link } from "../router";
 import type { Experiment, Problem, Verb } from "../wire";
 import { goodShare } from "./Counters";
@@ -23,7 +23,7 @@ export interface ExperimentRowProps {
   onAsk: (question: Question) => void;
 }
 
-function factsOf(experiment: Experiment): string {
+export function factsOf(experiment: Experiment): string {
   const { task, adapter, algorithm, preset, teacher, seed } = experiment;
   return [
     task,
@@ -83,7 +83,7 @@ export function ExperimentRow(props: ExperimentRowProps) {
         {whole(counters.violations)}
       </td>
       <td data-label={t("list.sort_updated")} className="when">
-        {moment(experiment.updated_at)}
+        {shortMoment(experiment.updated_at)}
       </td>
       <td className="acts">
         <Verbs

@@ -4,8 +4,8 @@ import { Link } from "../router";
 import { Sprout } from "./icons";
 import { Preferences } from "./Preferences";
 
-/** The bar at the top; `back` leads to the experiments, `stop` keeps room for the emergency stop. */
-export function Header(props: { back?: boolean; stop?: boolean; children?: ReactNode }) {
+/** The bar at the top; `back` leads to the experiments, `stop` keeps room for the emergency stop, `experiment` leads on to its results. */
+export function Header(props: { back?: boolean; stop?: boolean; experiment?: number; children?: ReactNode }) {
   return (
     <header className={props.stop ? "header with-stop" : "header"}>
       <Link to="/" className="brand" label={t("header.brand")}>
@@ -15,6 +15,11 @@ export function Header(props: { back?: boolean; stop?: boolean; children?: React
       {props.back && (
         <Link to="/" className="crumb">
           {t("header.experiments")}
+        </Link>
+      )}
+      {props.experiment && (
+        <Link to={`/experiments/${props.experiment}/results`} className="crumb" testId="to-results">
+          {t("nav.results")}
         </Link>
       )}
       {!props.stop && (

@@ -27,6 +27,15 @@ export function signed(value: number, digits = 2): string {
   return value < 0 ? `−${text}` : `+${text}`;
 }
 
+/** Without year and seconds, which a list of what goes on hardly needs. */
+export const shortMoment = (iso: string) =>
+  new Date(iso).toLocaleString(language(), {
+    day: "numeric",
+    month: "short",
+    hour: "2-digit",
+    minute: "2-digit",
+  });
+
 export const moment = (iso: string) => new Date(iso).toLocaleString(language());
 
 /** Three digits and a word for the thousands: on an axis there is little room. */

@@ -6,6 +6,7 @@ import { CalibrationPanel } from "../components/Calibration";
 import { ChartCard } from "../components/ChartCard";
 import { ConnectionState } from "../components/ConnectionState";
 import { goodShare, violationRatio } from "../components/Counters";
+import { factsOf } from "../components/ExperimentRow";
 import { ExperimentTabs } from "../components/ExperimentTabs";
 import { Header } from "../components/Header";
 import { Sprout } from "../components/icons";
@@ -78,6 +79,7 @@ export function ResultsPage({ id }: { id: number }) {
               <h1>{experiment?.name ?? t("common.loading")}</h1>
               {experiment && <StatePill experiment={experiment} />}
             </div>
+            {experiment && <p className="facts">{factsOf(experiment)}</p>}
           </div>
           <Smoothing value={smoothing} onChange={setSmoothing} />
           <a className="button" href={http.metricsTable(id)} download data-testid="metrics-table">

@@ -95,7 +95,7 @@ export function TrainerPage({ id }: { id: number }) {
     });
   return (
     <>
-      <Header back stop>
+      <Header back stop experiment={id}>
         <ConnectionState connection={state.connection} pending={state.pending.length} />
       </Header>
       <StopButton stopping={state.stopping !== "no"} onStop={() => session.halt()} />
