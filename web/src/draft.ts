@@ -32,14 +32,15 @@ export function firstDraft(catalogue: Catalogue): Draft {
   const task = catalogue.tasks.find((each) => each.name === "stacking") ?? catalogue.tasks[0];
   const algorithm = catalogue.algorithms.find((each) => each.name === "seed") ?? catalogue.algorithms[0];
   const fitting = catalogue.adapters.filter((each) => each.tasks.includes(task?.name ?? ""));
+  const adapter = (fitting.find((each) => each.name === "robosuite") ?? fitting[0])?.name ?? "";
   return {
     name: task ? taskWords(task.title) : t("create.untitled"),
     task: task?.name ?? "",
-    adapter: (fitting.find((each) => each.name === "robosuite") ?? fitting[0])?.name ?? "",
+    adapter,
     algorithm: algorithm?.name ?? "",
     preset: presetFor(catalogue, algorithm?.name ?? ""),
     teacher: "",
-    mode: "execute_approved",
+    mode: modeFor(catalogue, adapter),
     seed: "0",
     seeds: "1",
     num_envs: "1",
@@ -49,6 +50,12 @@ export function firstDraft(catalogue: Catalogue): Draft {
     adapter_settings: {},
     teacher_settings: {},
   };
+}
+
+/** A real robot begins by proposing only, whatever was chosen for another. */
+export function modeFor(catalogue: Catalogue, adapter: string): Mode {
+  const real = catalogue.adapters.find((each) => each.name === adapter)?.simulated === false;
+  return real ? "propose_only" : "execute_approved";
 }
 
 /** The preset to begin with. */
@@ -83,7 +90,7 @@ export function cloneOf(catalogue: Catalogue, from: Experiment): Draft {
     algorithm: from.algorithm,
     preset: from.preset ?? "",
     teacher: from.teacher ?? "",
-    mode: from.mode,
+    mode: modeFor(catalogue, from.adapter) === "propose_only" ? "propose_only" : from.mode,
     seed: String(from.seed),
     num_envs: String(from.num_envs),
     feedback_timeout: from.feedback_timeout === null ? "" : String(from.feedback_timeout),

@@ -13,6 +13,7 @@ import {
   errorAt,
   firstDraft,
   MOST_SEEDS,
+  modeFor,
   PARTS,
   type Part,
   presetFor,
@@ -193,11 +194,8 @@ function Choices({ catalogue, draft, problem, onChange }: BasicsProps) {
   const names = (items: { name: string }[]) => items.map(({ name }) => ({ value: name, label: name }));
   const adapters = catalogue.adapters.filter((each) => each.tasks.includes(draft.task));
   const algorithm = catalogue.algorithms.find(({ name }) => name === draft.algorithm);
-  // a real robot begins by proposing only, whatever was chosen for another
-  const setAdapter = (adapter: string) => {
-    const real = catalogue.adapters.find(({ name }) => name === adapter)?.simulated === false;
-    onChange({ adapter, adapter_settings: {}, mode: real ? "propose_only" : "execute_approved" });
-  };
+  const setAdapter = (adapter: string) =>
+    onChange({ adapter, adapter_settings: {}, mode: modeFor(catalogue, adapter) });
   const setTask = (task: string) => {
     const before = catalogue.tasks.find((each) => each.name === draft.task);
     const after = catalogue.tasks.find((each) => each.name === task);
