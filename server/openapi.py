@@ -15,6 +15,7 @@ TAGS = [
     {"name": "proposals", "description": "Skill calls that the agent suggests, with the pictures they are drawn on"},
     {"name": "feedback", "description": "Clicks"},
     {"name": "records", "description": "What an experiment leaves behind"},
+    {"name": "history", "description": "What happened, read back from the database"},
     {"name": "results", "description": "Curves of one experiment, of several beside each other, and the paper's"},
     {"name": "incidents", "description": "What went wrong, as people and cameras saw it"},
     {"name": "trust", "description": "How far the critic may be trusted"},

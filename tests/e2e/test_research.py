@@ -79,7 +79,7 @@ def test_experiments_are_found_tagged_cloned_and_compared(page: Page, service: L
     accessible(page)
 
     page.set_viewport_size({"width": PHONE["width"], "height": PHONE["height"]})
-    assert page.evaluate(FITS)
+    page.wait_for_function(FITS)
     page.goto(f"{service.url}/?text=sought")
     page.get_by_test_id("clone").first.click()
     page.get_by_test_id("create").click()
@@ -156,3 +156,43 @@ def test_charts_grow_while_somebody_looks_and_are_zoomed_and_downloaded(
     assert len(rows) > before
     assert files["svg"].read_text("utf-8").startswith("<svg")
     assert files["png"].read_bytes().startswith(b"\x89PNG")
+
+
+def test_the_past_is_looked_through_and_replayed_by_keyboard_while_nothing_runs(
+    page: Page, service: LiveService
+) -> None:
+    service.ensure()
+    experiment = taught(service, 12, name="Remembered")
+    service.post(f"/experiments/{experiment}/finish")
+    page.goto(f"{service.url}/experiments/{experiment}/gallery")
+    items = page.get_by_test_id("gallery-item")
+    told = service.get(f"/experiments/{experiment}/history?limit=200")["items"]
+    expect(items).to_have_count(min(100, len(told)))
+    expect(page.get_by_test_id("timeline")).to_be_visible()
+    accessible(page)
+    bad = [entry for entry in told if entry["proposal"]["verdict"] == "bad"]
+    page.get_by_test_id("narrow-verdict").select_option("bad")
+    expect(items).to_have_count(min(100, len(bad)))
+    page.get_by_test_id("narrow-violation").select_option("true")
+    expect(page.get_by_test_id("no-proposals")).to_be_visible()
+
+    number = bad[0]["proposal"]["number"]
+    episode = bad[0]["proposal"]["episode"]
+    page.goto(f"{service.url}/experiments/{experiment}/gallery?verdict=bad")
+    items.first.focus()
+    page.keyboard.press("Enter")
+    page.wait_for_url(re.compile(rf"/episodes/{episode}\?proposal={number}$"))
+    replay = page.get_by_test_id("replay")
+    expect(replay).to_have_attribute("data-stage", "proposed")
+    expect(page.get_by_role("heading", name=f"Proposal {number}")).to_be_visible()
+    expect(page.get_by_test_id("replay-verdict")).to_have_count(0)
+    page.keyboard.press("ArrowRight")
+    expect(replay).to_have_attribute("data-stage", "judged")
+    expect(page.get_by_test_id("replay-verdict")).to_contain_text("bad")
+    page.keyboard.press("Home")
+    expect(replay).to_have_attribute("data-at", "0")
+    accessible(page)
+    page.set_viewport_size({"width": PHONE["width"], "height": PHONE["height"]})
+    page.wait_for_function(FITS)
+    page.goto(f"{service.url}/experiments/{experiment}/episodes/999")
+    expect(page.get_by_role("alert")).to_contain_text("999")

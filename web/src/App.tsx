@@ -16,10 +16,12 @@ const StudiesPage = later(async () => (await import("./pages/StudiesPage")).Stud
 const StudyPage = later(async () => (await import("./pages/StudyPage")).StudyPage);
 const NewExperimentPage = later(async () => (await import("./pages/NewExperimentPage")).NewExperimentPage);
 const ResultsPage = later(async () => (await import("./pages/ResultsPage")).ResultsPage);
+const GalleryPage = later(async () => (await import("./pages/GalleryPage")).GalleryPage);
+const EpisodePage = later(async () => (await import("./pages/EpisodePage")).EpisodePage);
 const ComparePage = later(async () => (await import("./pages/ComparePage")).ComparePage);
 
 /** What of an address belongs to one experiment, and its page. */
-const OF_EXPERIMENT = { practice: PracticePage, results: ResultsPage } as const;
+const OF_EXPERIMENT = { practice: PracticePage, results: ResultsPage, gallery: GalleryPage } as const;
 
 function Page({ path }: { path: string }) {
   const trainer = /^\/experiments\/(\d+)\/?$/.exec(path);
@@ -30,6 +32,11 @@ function Page({ path }: { path: string }) {
   const part = /^\/experiments\/(\d+)\/(\w+)\/?$/.exec(path);
   const Part = OF_EXPERIMENT[part?.[2] as keyof typeof OF_EXPERIMENT];
   if (part && Part) return <Part key={part[1]} id={Number(part[1])} />;
+  const episode = /^\/experiments\/(\d+)\/episodes\/(\d+)\/?$/.exec(path);
+  if (episode)
+    return (
+      <EpisodePage key={`${episode[1]} ${episode[2]}`} id={Number(episode[1])} number={Number(episode[2])} />
+    );
   const study = /^\/studies\/([^/]+)\/?$/.exec(path);
   if (study?.[1]) return <StudyPage key={study[1]} name={decodeURIComponent(study[1])} />;
   if (path === "/studies") return <StudiesPage />;

@@ -9,6 +9,7 @@ import type {
   Calibration,
   Comparison,
   Curves,
+  Episode,
   Evaluation,
   Execution,
   Experiment,
@@ -16,6 +17,8 @@ import type {
   ExperimentPage,
   ExperimentUpdate,
   Feedback,
+  HistoryEntry,
+  HistoryPage,
   Incident,
   LabelQuality,
   Measure,
@@ -125,6 +128,28 @@ export const experiments = (listing: string, cursor: string | null) =>
     "GET",
     `/experiments?limit=50${listing && `&${listing}`}${cursor ? `&cursor=${encodeURIComponent(cursor)}` : ""}`,
   );
+
+/** A page of closed proposals with what was said of them and what came of it; `narrowed` is its query. */
+export const told = (id: number, narrowed: string, cursor: string | null) =>
+  request<HistoryPage>(
+    "GET",
+    `/experiments/${id}/history?limit=100${narrowed && `&${narrowed}`}${cursor ? `&cursor=${encodeURIComponent(cursor)}` : ""}`,
+  );
+
+/** Every step of an episode, oldest first. */
+export async function steps(id: number, episode: number): Promise<HistoryEntry[]> {
+  const found: HistoryEntry[] = [];
+  let cursor: string | null = null;
+  do {
+    const page: HistoryPage = await told(id, `episode=${episode}&order=asc`, cursor);
+    found.push(...page.items);
+    cursor = page.next_cursor ?? null;
+  } while (cursor);
+  return found;
+}
+
+export const episode = (id: number, number: number) =>
+  request<Episode>("GET", `/experiments/${id}/episodes/${number}`);
 
 export const curves = (id: number) => request<Curves>("GET", `/experiments/${id}/curves`);
 

@@ -15,27 +15,30 @@ export const LABELS = [
   { value: "cant_tell", key: "cantTell", Icon: Eye },
 ] as const;
 
-function labelKey(value: Value | undefined): "bad" | "neutral" | "good" | "cantTell" | "none" {
+export function labelKey(value: Value | undefined): "bad" | "neutral" | "good" | "cantTell" | "none" {
   return LABELS.find((each) => each.value === value)?.key ?? "none";
 }
 
-function Picture({ view, judged }: { view: View; judged?: boolean }) {
+export function Picture(props: { view: View; judged?: boolean; overlay?: boolean }) {
+  const { view, judged, overlay = true } = props;
   return (
     <div className="pictured" style={{ aspectRatio: `${view.width} / ${view.height}` }}>
       <img src={view.url} alt="" loading="lazy" decoding="async" width={view.width} height={view.height} />
-      <OverlayDrawing
-        overlay={view.overlay}
-        width={view.width}
-        height={view.height}
-        judged={judged ?? false}
-        ghost={false}
-      />
+      {overlay && (
+        <OverlayDrawing
+          overlay={view.overlay}
+          width={view.width}
+          height={view.height}
+          judged={judged ?? false}
+          ghost={false}
+        />
+      )}
     </div>
   );
 }
 
 /** A thumbnail's marks: too small to be explained, so only the dot and the line. */
-function Thumb({ view }: { view: View }) {
+export function Thumb({ view }: { view: View }) {
   const { dot, line } = view.overlay;
   return (
     <>

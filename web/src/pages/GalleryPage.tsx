@@ -1,0 +1,111 @@
+// Every closed proposal as a picture, narrowed by what was said of it and what came of it; each leads into its episode.
+
+import { useCallback, useEffect, useState } from "react";
+import { ExperimentTabs } from "../components/ExperimentTabs";
+import { GalleryItem } from "../components/GalleryItem";
+import { GalleryTools } from "../components/GalleryTools";
+import { Header } from "../components/Header";
+import { Sprout } from "../components/icons";
+import { ProblemCard } from "../components/ProblemCard";
+import { StatePill } from "../components/StatePill";
+import { Timeline } from "../components/Timeline";
+import { narrowedIn } from "../gallery";
+import * as http from "../http";
+import { t } from "../i18n";
+import { setSearch, useSearch } from "../router";
+import { useTask } from "../useCatalogue";
+import type { Experiment, HistoryEntry, Problem } from "../wire";
+
+interface Shown {
+  narrowed: string;
+  items: HistoryEntry[];
+  cursor: string | null;
+}
+
+function useGallery(id: number, narrowed: string) {
+  const [shown, setShown] = useState<Shown | null>(null);
+  const [problem, setProblem] = useState<Problem | null>(null);
+  const load = useCallback(
+    async (before: Shown | null, current: () => boolean) => {
+      try {
+        const page = await http.told(id, narrowed, before?.cursor ?? null);
+        if (!current()) return;
+        const items = [...(before?.items ?? []), ...page.items];
+        setShown({ narrowed, items, cursor: page.next_cursor ?? null });
+        setProblem(null);
+      } catch (error) {
+        if (current()) setProblem(http.problemOf(error));
+      }
+    },
+    [id, narrowed],
+  );
+  useEffect(() => {
+    let gone = false;
+    void load(null, () => !gone);
+    return () => {
+      gone = true;
+    };
+  }, [load]);
+  return { shown, problem, more: () => void load(shown, () => true) };
+}
+
+function useExperiment(id: number): Experiment | null {
+  const [experiment, setExperiment] = useState<Experiment | null>(null);
+  useEffect(() => {
+    http.experiment(id).then(setExperiment, () => undefined); // the gallery's own problem tells
+  }, [id]);
+  return experiment;
+}
+
+function Empty({ narrowed }: { narrowed: boolean }) {
+  return (
+    <div className="empty" data-testid="no-proposals">
+      <Sprout />
+      <h2>{t(narrowed ? "gallery.none" : "gallery.empty")}</h2>
+      <p>{t(narrowed ? "gallery.noneWhat" : "gallery.emptyWhat")}</p>
+    </div>
+  );
+}
+
+export function GalleryPage({ id }: { id: number }) {
+  const narrowed = narrowedIn(useSearch());
+  const { shown, problem, more } = useGallery(id, narrowed.toString());
+  const experiment = useExperiment(id);
+  const task = useTask(experiment?.task);
+  useEffect(() => {
+    document.title = `${t("nav.gallery")} · SEED`;
+  }, []);
+  if (problem && !shown) return <ProblemCard problem={problem} />;
+  return (
+    <>
+      <Header back />
+      <main className="page" data-testid="gallery">
+        <div className="title-row">
+          <div className="title-text title-line">
+            <h1>{experiment?.name ?? t("common.loading")}</h1>
+            {experiment && <StatePill experiment={experiment} />}
+          </div>
+        </div>
+        <ExperimentTabs id={id} here="gallery" />
+        <GalleryTools
+          narrowed={narrowed}
+          skills={task?.skills.map(({ name }) => name) ?? []}
+          onChange={setSearch}
+        />
+        {!shown && <div className="skeleton tall" role="status" aria-label={t("common.loading")} />}
+        {shown && shown.items.length > 0 && <Timeline id={id} entries={shown.items} />}
+        {shown?.items.length === 0 && <Empty narrowed={narrowed.size > 0} />}
+        <ul className="gallery">
+          {shown?.items.map((entry) => (
+            <GalleryItem key={entry.proposal.id} id={id} entry={entry} />
+          ))}
+        </ul>
+        {shown?.cursor && (
+          <button type="button" className="button quiet" onClick={more} data-testid="more">
+            {t("common.showMore")}
+          </button>
+        )}
+      </main>
+    </>
+  );
+}
