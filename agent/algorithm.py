@@ -150,6 +150,18 @@ class Movable(Protocol):
         """Take all further gradient steps there."""
 
 
+@runtime_checkable
+class Estimating(Protocol):
+    """An algorithm that tells what it expects to be said of calls that it doesn't propose."""
+
+    def estimate(self, state: Array, calls: Sequence[SkillCall]) -> Array:
+        """(n,) state and C calls -> (C,) predicted feedback, as of `Suggestion`. Changes nothing, and draws nothing.
+
+        Raises:
+            AgentError: the state or a call doesn't fit the task.
+        """
+
+
 class AlgorithmFactory(Protocol):
     """What an entry point of the group `seed.algorithms` names."""
 

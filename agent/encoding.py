@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
 import numpy as np
 
 from agent.algorithm import AgentError, Label, Problem
-from agent.replay import Entry, Float32
+from agent.replay import Entry, Float32, Int64
 from robot_adapters.base import Array, InvalidCall, SkillCall, check_call
 
 
@@ -144,6 +144,24 @@ class Encoder:
         spec = self._problem.skills[skill]
         values = spec.denormalise(np.asarray(parameters, dtype=np.float64)[: len(spec.parameters)])
         return SkillCall(spec.name, tuple(float(v) for v in values))
+
+    def calls(self, calls: Sequence[SkillCall]) -> tuple[Int64, Float32]:
+        """C calls in metres and radians -> (C,) skill indices and (C, P) parameters in [-1, 1], padded with 0.
+
+        Raises:
+            AgentError: one doesn't fit the task.
+        """
+        skills = np.zeros(len(calls), dtype=np.int64)
+        parameters = np.zeros((len(calls), max(1, *self.parameter_counts)), dtype=np.float32)
+        for row, call in enumerate(calls):
+            try:
+                spec = check_call(call, self._problem.skills)
+            except InvalidCall as error:
+                raise AgentError(str(error), remedy=error.remedy) from error
+            unit = spec.normalise(np.asarray(call.parameters, dtype=np.float64))
+            skills[row] = self._index[spec.name]
+            parameters[row, : len(unit)] = np.clip(unit, -1.0, 1.0)
+        return skills, parameters
 
     def fingerprint(self) -> Mapping[str, Any]:
         """What a checkpoint must agree on to mean the same thing: the task, its state bounds and its skills."""

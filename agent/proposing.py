@@ -9,7 +9,7 @@ import torch
 
 from agent.exploring import disagreement
 from agent.networks import Networks
-from agent.replay import Float32
+from agent.replay import Float32, Int64
 from robot_adapters.base import Array
 
 
@@ -25,6 +25,20 @@ class Choice:
     probabilities: Array
     predicted: float
     uncertainty: float | None
+
+
+@torch.inference_mode()
+def estimate(networks: Networks, state: Float32, keypoints: Float32, *, skills: Int64, parameters: Float32) -> Array:
+    """H_theta(s, a, x) of C calls in one state, the mean over the critics: (C,).
+
+    state: (n,) scaled. keypoints: (K, M, 3) m, empty where the networks know none. skills: (C,) indices. parameters:
+    (C, P) in [-1, 1], padded with 0.
+    """
+    count = len(skills)
+    states = torch.from_numpy(state).expand(count, -1)
+    here = torch.from_numpy(keypoints).expand(count, *keypoints.shape)
+    predicted = networks.predict(states, torch.from_numpy(skills), torch.from_numpy(parameters), here)
+    return predicted.mean(dim=0).double().numpy()
 
 
 @torch.inference_mode()

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Float32 = NDArray[np.float32]
+Int64 = NDArray[np.int64]
 """A float32 array, ready for a network."""
 
 NO_KEYPOINTS = (0, 0, 3)

@@ -25,7 +25,7 @@ from agent.encoding import Encoder
 from agent.grounding import grounding
 from agent.kernels import no_pause
 from agent.networks import Layout, Networks, dice
-from agent.proposing import Choice, choose
+from agent.proposing import Choice, choose, estimate
 from agent.replay import Batch, Replay
 from agent.symmetry import symmetries
 from agent.training import Objective, Trainer
@@ -136,6 +136,16 @@ class Seed:
                 scaled, keypoints, self._proposing, deterministic=deterministic, pending=refused.bad()
             )
         return choose(self._networks, scaled, keypoints, self._proposing, deterministic=deterministic)
+
+    def estimate(self, state: Array, calls: Sequence[SkillCall]) -> Array:
+        """(n,) state and C calls -> (C,) predicted feedback; nothing changes, and nothing is drawn.
+
+        Raises:
+            AgentError: the state or a call doesn't fit the task.
+        """
+        scaled, keypoints = self._encoder.state(state), self._encoder.keypoints(state)
+        skills, parameters = self._encoder.calls(calls)
+        return estimate(self._networks, scaled, keypoints, skills=skills, parameters=parameters)
 
     def add(self, labels: Sequence[Label]) -> None:
         """Take labels into the replay and owe their gradient steps. Each is taken once.

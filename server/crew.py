@@ -17,6 +17,7 @@ from typing import Any
 from robot_adapters.base import SkillCall
 from server.attendance import Attendance
 from server.crew_values import Idea, Saved
+from server.learning import checkpoint_folder, checkpoint_name, checkpoint_path, configuration
 from server.post import DEATH_WINDOW, QUICK, OnChange, Post
 from server.robots import OnFrame, OnTold, Robot, Stops
 from server.schemas import Experiment
@@ -210,6 +211,11 @@ class Crew:
         reply = await self._learner("propose_batch", QUICK, state=list(state), count=count, pending=waiting)
         return [_idea(suggestion, reply["policy_version"]) for suggestion in reply["suggestions"]]
 
+    @property
+    def knowing(self) -> Worker | None:
+        """The learner as it is now, to be asked what it knows; None where nobody learns."""
+        return self.learner.worker if self.learner.ready else None
+
     async def flush(self) -> None:
         """Wait until every owed gradient step is taken."""
         await self._learner("flush")
@@ -225,9 +231,9 @@ class Crew:
 
     async def save(self) -> Saved:
         """Write a checkpoint below the data directory."""
-        folder = self._settings.data_dir.resolve() / "checkpoints" / str(self._experiment.id)
+        folder = checkpoint_folder(self._settings, self._experiment.id)
         status = await self._learner("save", path=str(folder / "next.ckpt"))
-        path = folder / _file_name(status["policy_version"], status["last_label_id"])
+        path = folder / checkpoint_name(status["policy_version"], status["last_label_id"])
         await asyncio.to_thread((folder / "next.ckpt").replace, path)
         return Saved(path, status["policy_version"], status["last_label_id"], status["sha256"])
 
@@ -241,13 +247,7 @@ class Crew:
         await learner.call(
             "configure",
             deadline=deadline,
-            task=experiment.task,
-            algorithm=experiment.algorithm,
-            settings=experiment.settings,
-            seed=experiment.seed,
-            lockstep=experiment.lockstep,
-            threads=self._settings.learner_threads,
-            device=self._settings.learner_device,
+            **configuration(experiment, self._settings, lockstep=experiment.lockstep),
         )
         await self._load_newest(learner)
         labels = await self._store.labels(experiment.id)
@@ -271,8 +271,7 @@ class Crew:
         newest = await self._store.latest_checkpoint(self._experiment.id)
         if newest is None:
             return
-        name = _file_name(newest.policy_version, newest.last_feedback_id)
-        path = self._settings.data_dir.resolve() / "checkpoints" / str(self._experiment.id) / name
+        path = checkpoint_path(self._settings, self._experiment.id, newest)
         try:
             await learner.call("load", deadline=self._settings.learner_deadline, path=str(path))
         except CommandFailed as error:
@@ -326,7 +325,3 @@ def _wire(label: StoredLabel) -> dict[str, Any]:
         "parameters": list(label.parameters),
         "value": label.value,
     }
-
-
-def _file_name(policy_version: int, last_feedback_id: int) -> str:
-    return f"{policy_version:08d}-{last_feedback_id:08d}.ckpt"

@@ -32,6 +32,7 @@ from server.schemas_listing import Listing
 from server.seats import Seats
 from server.settings import Settings
 from server.store import Conflict, NotFound, Receipt, Store, StoreError
+from server.worker import Worker
 
 log = logging.getLogger(__name__)
 
@@ -108,6 +109,11 @@ class Hub:
         """Wait until neither the experiment's loop nor an evaluation of it goes on."""
         if runner := self._runners.get(experiment_id):
             await runner.idle()
+
+    def knowing(self, experiment_id: int) -> Worker | None:
+        """The learner of an experiment, if one learns or waits; ask it nothing that changes it."""
+        runner = self._runners.get(experiment_id)
+        return None if runner is None else runner.crew.knowing
 
     def worker_pids(self, experiment_id: int) -> dict[str, int]:
         """Process ids of the experiment's living workers, by role."""

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from server import catalogue
+from server.critic import Critics
 from server.doors import Doors
 from server.errors import ServiceError
 from server.hub import Hub
@@ -44,6 +45,7 @@ class Service:
     rooms: Rooms
     hub: Hub
     doors: Doors
+    critics: Critics
 
     async def create(self, body: ExperimentCreate, receipt: Receipt | None = None) -> Experiment:
         """Check a new experiment and store it, with the answer that a retry gets.
@@ -89,9 +91,11 @@ async def opened(settings: Settings, listener: Publisher | None = None) -> Async
             measuring = Measuring(listener or rooms, store)
             hub = Hub(store, settings, measuring)
             await hub.start()
+            critics = Critics(store, settings, hub)
             try:
-                yield Service(settings, store, rooms, hub, Doors())
+                yield Service(settings, store, rooms, hub, Doors(), critics)
             finally:
+                await critics.close()
                 await measuring.close()
                 try:
                     await hub.close()

@@ -20,7 +20,17 @@ from typing import Any
 import numpy as np
 
 from agent.affordance import near
-from agent.algorithm import AgentError, Algorithm, AlgorithmFactory, DeviceName, Label, Pausing, Problem, Suggestion
+from agent.algorithm import (
+    AgentError,
+    Algorithm,
+    AlgorithmFactory,
+    DeviceName,
+    Estimating,
+    Label,
+    Pausing,
+    Problem,
+    Suggestion,
+)
 from agent.batching import propose_batch
 from robot_adapters import registry
 from robot_adapters.base import InvalidCall, SkillCall, check_call
@@ -39,6 +49,13 @@ class Diverged(Refusal):
             " with a lower learning_rate"
         )
         super().__init__(str(cause), remedy=remedy)
+
+
+class NoEstimates(Refusal):
+    """The algorithm has no critic that could be asked."""
+
+    def __init__(self, message: str) -> None:
+        super().__init__(message, remedy="look at an experiment whose algorithm can, such as seed")
 
 
 class Learner:
@@ -119,6 +136,15 @@ class Learner:
         found = propose_batch(self.algorithm, self._task.skills, seen, count, waiting)
         return {"suggestions": [_wire(suggestion) for suggestion in found]} | self._status()
 
+    def estimate(self, *, state: list[float], skill: str, calls: list[list[float]]) -> dict[str, Any]:
+        """What the critic expects to be said of these calls, each given by its parameters."""
+        algorithm = self.algorithm
+        if not isinstance(algorithm, Estimating):
+            raise NoEstimates("this algorithm can't be asked about calls that it doesn't propose")
+        asked = [SkillCall(skill, tuple(parameters)) for parameters in calls]
+        values = algorithm.estimate(np.array(state, dtype=np.float64), asked)
+        return {"values": [float(value) for value in values]} | self._status()
+
     def add(self, *, labels: list[dict[str, Any]]) -> dict[str, Any]:
         """Take new labels; the steps they owe come later."""
         self.algorithm.add(self._labels(labels))
@@ -192,7 +218,8 @@ class Learner:
 def serve(pipes: Pipes) -> None:
     """Answer requests until the server is gone; take gradient steps in between."""
     learner = Learner()
-    names = ("configure", "propose", "propose_batch", "add", "restore", "forget", "relabel", "flush", "save", "load")
+    names = ("configure", "propose", "propose_batch", "estimate", "add", "restore", "forget", "relabel", "flush")
+    names += ("save", "load")
     handlers = {name: getattr(learner, name) for name in names}
     commands = pipes.commands
     flushes: list[Mapping[str, Any]] = []

@@ -103,6 +103,21 @@ def test_the_critic_predicts_what_was_said() -> None:
         assert learner._networks.predict(*inputs).mean().item() == pytest.approx(expected, abs=0.2)
 
 
+@pytest.mark.parametrize("preset", ["paper_sim", "recommended"])
+def test_what_it_says_of_any_call_is_what_it_predicts_when_it_proposes_it(preset: str) -> None:
+    asked, quiet = (seed(**{**SEED.presets[preset], **SMALL}) for _ in range(2))
+    for learner in (asked, quiet):
+        train(learner, lambda call: 1 if call.skill == "pick" else -1, 20)
+    suggestions: list[Suggestion] = []
+    for _ in range(5):
+        suggestions.append(asked.propose(STATE))
+        told = asked.estimate(STATE, [suggestion.call for suggestion in suggestions])
+        assert told == pytest.approx([suggestion.predicted_feedback for suggestion in suggestions], abs=1e-5)
+    assert proposals(quiet) == suggestions, "asking draws nothing"
+    with pytest.raises(AgentError, match="fly"):
+        asked.estimate(STATE, [SkillCall("fly", ())])
+
+
 def test_each_loss_trains_its_own_networks_only() -> None:
     """However the actors and temperatures are driven, the critic is the same regression on the same labels."""
     calm, wild = seed(skill_entropy=0.0), seed(skill_entropy=1.0, parameter_entropy=0.5, initial_temperature=10.0)

@@ -196,3 +196,33 @@ def test_the_past_is_looked_through_and_replayed_by_keyboard_while_nothing_runs(
     page.wait_for_function(FITS)
     page.goto(f"{service.url}/experiments/{experiment}/episodes/999")
     expect(page.get_by_role("alert")).to_contain_text("999")
+
+
+def test_what_the_critic_thinks_is_drawn_beside_what_was_said(page: Page, service: LiveService) -> None:
+    service.ensure()
+    experiment = taught(service, 12, name="Thoughtful")
+    page.goto(f"{service.url}/experiments/{experiment}/critic")
+    picture = page.get_by_test_id("critic-picture")
+    expect(picture).to_have_attribute("data-source", "learner", timeout=START_MS)
+    expect(picture.get_by_text("block a")).to_be_visible()
+    page.get_by_test_id("critic-skill").select_option("place")
+    expect(page.get_by_role("img", name=re.compile("Table from above: expected feedback for place"))).to_be_visible()
+    held = page.get_by_test_id("held-z")
+    before = held.input_value()
+    held.focus()
+    page.keyboard.press("ArrowRight")
+    assert held.input_value() != before
+    with page.expect_response(lambda answer: "other=z" in answer.url) as told:
+        page.keyboard.press("ArrowRight")
+    assert told.value.status == 200
+    picture.hover()
+    expect(page.get_by_test_id("critic-read")).to_contain_text("x 0.")
+    accessible(page)
+    page.set_viewport_size({"width": PHONE["width"], "height": PHONE["height"]})
+    page.wait_for_function(FITS)
+    quiet = service.experiment(adapter="kinematic", name="Silent", teacher="synthetic")
+    service.post(f"/experiments/{quiet}/start")
+    judged_until(service, quiet, 2)
+    service.post(f"/experiments/{quiet}/finish")
+    page.goto(f"{service.url}/experiments/{quiet}/critic")
+    expect(page.get_by_test_id("critic-problem")).to_contain_text("scripted", timeout=START_MS)

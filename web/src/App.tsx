@@ -18,10 +18,16 @@ const NewExperimentPage = later(async () => (await import("./pages/NewExperiment
 const ResultsPage = later(async () => (await import("./pages/ResultsPage")).ResultsPage);
 const GalleryPage = later(async () => (await import("./pages/GalleryPage")).GalleryPage);
 const EpisodePage = later(async () => (await import("./pages/EpisodePage")).EpisodePage);
+const CriticPage = later(async () => (await import("./pages/CriticPage")).CriticPage);
 const ComparePage = later(async () => (await import("./pages/ComparePage")).ComparePage);
 
 /** What of an address belongs to one experiment, and its page. */
-const OF_EXPERIMENT = { practice: PracticePage, results: ResultsPage, gallery: GalleryPage } as const;
+const OF_EXPERIMENT = {
+  practice: PracticePage,
+  results: ResultsPage,
+  gallery: GalleryPage,
+  critic: CriticPage,
+} as const;
 
 function Page({ path }: { path: string }) {
   const trainer = /^\/experiments\/(\d+)\/?$/.exec(path);

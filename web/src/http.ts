@@ -8,6 +8,7 @@ import type {
   AutoApprovalRecord,
   Calibration,
   Comparison,
+  CriticMap,
   Curves,
   Episode,
   Evaluation,
@@ -147,6 +148,15 @@ export async function steps(id: number, episode: number): Promise<HistoryEntry[]
   } while (cursor);
   return found;
 }
+
+/** What the critic expects of a skill over the table, in a proposal's situation; `others` stay the same everywhere. */
+export const critic = (proposalId: number, skill: string, others: Record<string, number>) => {
+  const held = Object.entries(others).map(([name, value]) => ["other", `${name}=${value}`]);
+  return request<CriticMap>(
+    "GET",
+    `/proposals/${proposalId}/critic?${new URLSearchParams([["skill", skill], ...held])}`,
+  );
+};
 
 export const episode = (id: number, number: number) =>
   request<Episode>("GET", `/experiments/${id}/episodes/${number}`);

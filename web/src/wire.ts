@@ -31,6 +31,7 @@ export type PracticeProgress = Schemas["PracticeProgress"];
 export type PracticeReason = Schemas["PracticeReason"];
 export type PracticeResult = Schemas["PracticeResult"];
 export type PracticeSlip = Schemas["PracticeSlip"];
+export type CriticMap = Schemas["CriticMap"];
 export type HistoryEntry = Schemas["HistoryEntry"];
 export type HistoryPage = Schemas["HistoryPage"];
 export type Episode = Schemas["Episode"];

@@ -2,7 +2,7 @@
 import { t } from "../i18n";
 import { Link } from "../router";
 
-export const PAGES = ["judge", "results", "gallery"] as const;
+export const PAGES = ["judge", "results", "gallery", "critic"] as const;
 export type ExperimentPage = (typeof PAGES)[number];
 
 export function ExperimentTabs({ id, here }: { id: number; here: ExperimentPage }) {
