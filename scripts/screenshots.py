@@ -1,6 +1,7 @@
 """Takes the pictures in docs/screenshots: every page, by day and by night, on a desk and on a phone.
 
-`make screenshots` starts a service of its own on robosuite, judges a few proposals as the task's rule would, and looks.
+`make screenshots` starts a service of its own on robosuite, judges a few proposals as the task's rule would, has a
+noisy teacher judge some experiments on a table without physics, and looks.
 A page is added to PAGES. Look at the pictures before you commit them.
 """
 
@@ -33,6 +34,8 @@ THEMES = ("dark", "light")
 FLAGS = ("--no-sandbox", "--disable-dev-shm-usage", "--disable-background-networking", "--disable-component-update")
 TASK = "stacking"
 CLICKS = 14
+TAUGHT = (60, 120, 180)
+"""Labels of a teacher before each evaluation."""
 PATIENCE = 120.0
 
 
@@ -54,6 +57,26 @@ def _with_everything(page: Page) -> None:
     page.evaluate("scrollTo(0, 0)")
 
 
+def _charted(page: Page) -> None:
+    _as_it_is(page)
+    page.wait_for_selector(".plot .uplot")
+
+
+def _seen(page: Page) -> None:
+    _as_it_is(page)
+    page.wait_for_function("[...document.images].every((image) => image.complete || image.loading === 'lazy')")
+
+
+def _settings(page: Page) -> None:
+    _as_it_is(page)
+    page.get_by_test_id("part-settings").locator("summary").click()
+
+
+def _asked(page: Page) -> None:
+    page.wait_for_selector("[data-testid=critic-picture]", timeout=PATIENCE * 1000)
+    _seen(page)
+
+
 def _past(page: Page) -> None:
     _ready(page)
     page.get_by_test_id("past").nth(1).click()
@@ -65,6 +88,16 @@ PAGES: dict[str, tuple[str, Callable[[Page], None]]] = {
     "trainer": ("/experiments/1", _ready),
     "trainer-tools": ("/experiments/1", _with_everything),
     "trainer-past": ("/experiments/1", _past),
+    "practice": ("/experiments/1/practice", _seen),
+    "new": ("/experiments/new?from=2", _settings),
+    "results": ("/experiments/2/results", _charted),
+    "compare": (
+        "/compare?experiment=2&experiment=3&experiment=4&experiment=5&measure=successes&by=algorithm&by=preset",
+        _charted,
+    ),
+    "gallery": ("/experiments/2/gallery?purpose=training", _seen),
+    "episode": ("/experiments/2/episodes/3", _seen),
+    "critic": ("/experiments/2/critic", _asked),
     "studies": ("/studies", _as_it_is),
 }
 """Name -> path, and what makes it ready to be looked at."""
@@ -121,6 +154,45 @@ def judge(http: httpx.Client) -> None:
         http.post(f"/api/v1/proposals/{proposal['id']}/feedback", json=click).raise_for_status()
 
 
+def teach(http: httpx.Client) -> None:
+    """Experiments that a noisy teacher judged: two seeds of each of two presets, evaluated once."""
+    for preset, seed in itertools.product(("recommended", "paper_sim"), (0, 1)):
+        body = {
+            "name": f"Sweep the cube, {preset}",
+            "task": "sweeping",
+            "adapter": "kinematic",
+            "preset": preset,
+            "settings": {"hidden_size": 64},
+            "teacher": "noisy",
+            "seed": seed,
+            "tags": ["sweep", preset],
+        }
+        made = http.post("/api/v1/experiments", json=body).raise_for_status().json()["id"]
+        address = f"/api/v1/experiments/{made}"
+        for labels in TAUGHT:
+            http.post(f"{address}/{'start' if labels == TAUGHT[0] else 'resume'}").raise_for_status()
+            _until(partial(_counted, http, address, labels), f"label {labels}")
+            http.post(f"{address}/pause").raise_for_status()
+            _until(partial(_idle, http, address), "the pause")
+            http.post(f"{address}/evaluate", json={"rollouts": 10}).raise_for_status()
+            _until(partial(_evaluated, http, address), "the evaluation")
+        if seed == 0:
+            http.post(f"{address}/finish").raise_for_status()
+
+
+def _counted(http: httpx.Client, address: str, labels: int) -> bool:
+    return bool(http.get(address).json()["counters"]["feedback"] >= labels)
+
+
+def _idle(http: httpx.Client, address: str) -> bool:
+    return bool(http.get(address).json()["phase"] == "idle")
+
+
+def _evaluated(http: httpx.Client, address: str) -> bool:
+    newest = http.get(f"{address}/evaluations?limit=1").json()["items"][0]
+    return newest["ended_at"] is not None and _idle(http, address)
+
+
 def _open(http: httpx.Client, number: int) -> bool:
     items = http.get("/api/v1/experiments/1/proposals?limit=1").json()["items"]
     return bool(items) and items[0]["number"] == number and items[0]["closed_at"] is None
@@ -153,6 +225,7 @@ def main() -> None:
     OUT.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder, service(Path(folder)) as http, sync_playwright() as playwright:
         judge(http)
+        teach(http)
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=list(FLAGS))
         look(browser, str(http.base_url), names)
         browser.close()
