@@ -218,8 +218,8 @@ class Learner:
 def serve(pipes: Pipes) -> None:
     """Answer requests until the server is gone; take gradient steps in between."""
     learner = Learner()
-    names = ("configure", "propose", "propose_batch", "estimate", "add", "restore", "forget", "relabel", "flush")
-    names += ("save", "load")
+    answering = ("configure", "propose", "propose_batch", "estimate", "flush", "save", "load")
+    names = (*answering, "add", "restore", "forget", "relabel")
     handlers = {name: getattr(learner, name) for name in names}
     commands = pipes.commands
     flushes: list[Mapping[str, Any]] = []

@@ -97,7 +97,7 @@ async def test_whoever_was_invited_to_one_experiment_sees_nothing_of_another(
             assert told.type == "/problems/not-invited"
 
 
-OTHERS = {"camera": "left", "name": "none", "file": "none", "path": "", "index": "0"}
+OTHERS = {"number": 1, "camera": "left", "name": "none", "file": "none", "path": "", "index": "0"}
 """What addresses ask for beside the ids of rows."""
 
 
