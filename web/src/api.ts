@@ -623,6 +623,66 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/experiments/{experiment_id}/history": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List History
+         * @description Closed proposals, each with its clicks and its execution.
+         */
+        get: operations["list_history"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/experiments/{experiment_id}/episodes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Episodes
+         * @description Episodes with what happened in each, counted; newest first.
+         */
+        get: operations["list_episodes"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/experiments/{experiment_id}/episodes/{number}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Episode
+         * @description One episode; its steps are the history with `episode` and `order=asc`.
+         */
+        get: operations["get_episode"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/executions/{execution_id}/reports": {
         parameters: {
             query?: never;
@@ -863,6 +923,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/experiments/{experiment_id}/exports/metrics": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Metrics
+         * @description Every metric point, one a label: what the learner reported and what was counted by then.
+         */
+        get: operations["export_metrics"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/comparison": {
         parameters: {
             query?: never;
@@ -955,6 +1035,26 @@ export interface paths {
          * @description What the critic approved by itself, and how often trainers agreed where it was checked.
          */
         get: operations["get_auto_approval"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/proposals/{proposal_id}/critic": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Critic Map
+         * @description What the critic expects of a skill all over the table, in this proposal's situation, and what was said nearby.
+         */
+        get: operations["get_critic_map"];
         put?: never;
         post?: never;
         delete?: never;
@@ -2276,6 +2376,62 @@ export interface components {
             auto_approved: number;
         };
         /**
+         * CriticMap
+         * @description The predicted feedback of one skill over the table, in one proposal's situation. Lengths in m, base frame.
+         */
+        CriticMap: {
+            /** Experiment Id */
+            experiment_id: number;
+            /** Proposal Id */
+            proposal_id: number;
+            /** Skill */
+            skill: string;
+            /**
+             * X
+             * @description of the columns, ascending
+             */
+            x: number[];
+            /**
+             * Y
+             * @description of the rows, ascending
+             */
+            y: number[];
+            /**
+             * Values
+             * @description a row for each y, a value for each x
+             */
+            values: number[][];
+            /**
+             * Others
+             * @description the skill's other parameters, the same everywhere
+             */
+            others: {
+                [key: string]: number;
+            };
+            /** Labels */
+            labels: components["schemas"]["NearbyLabel"][];
+            /**
+             * Keypoints
+             * @description where the skill acts on objects, as the task tells
+             */
+            keypoints: [
+                number,
+                number,
+                number
+            ][];
+            /**
+             * Policy Version
+             * @description gradient steps that this critic had taken
+             */
+            policy_version: number;
+            /**
+             * Source
+             * @description asked as it learns, or read from its newest checkpoint
+             * @enum {string}
+             */
+            source: "learner" | "checkpoint";
+        };
+        /**
          * Curve
          * @description One line. y is null where nothing was measured; low and high are the ends of a band, where there is one.
          */
@@ -2305,6 +2461,54 @@ export interface components {
             feedback: number;
             /** Charts */
             charts: components["schemas"]["Chart"][];
+        };
+        /**
+         * Episode
+         * @description From one reset to the next. outcome is null while it goes on.
+         */
+        Episode: {
+            /**
+             * Number
+             * @description in its experiment, from 1
+             */
+            number: number;
+            /**
+             * Robot
+             * @description which robot of the experiment, from 0
+             */
+            robot: number;
+            /**
+             * Purpose
+             * @enum {string}
+             */
+            purpose: "training" | "evaluation";
+            /** Outcome */
+            outcome: ("success" | "horizon" | "violation" | "reset" | "interrupted") | null;
+            /** Seed */
+            seed: number;
+            /**
+             * Started At
+             * Format: date-time
+             */
+            started_at: string;
+            /** Ended At */
+            ended_at: string | null;
+            /** Proposals */
+            proposals: number;
+            /** Executions */
+            executions: number;
+            /** Violations */
+            violations: number;
+        };
+        /**
+         * EpisodePage
+         * @description Episodes, newest first.
+         */
+        EpisodePage: {
+            /** Next Cursor */
+            next_cursor: string | null;
+            /** Items */
+            items: components["schemas"]["Episode"][];
         };
         /**
          * Estimate
@@ -3070,6 +3274,29 @@ export interface components {
             boot_id: string;
         };
         /**
+         * HistoryEntry
+         * @description A closed proposal with what was said of it and what came of it.
+         */
+        HistoryEntry: {
+            proposal: components["schemas"]["Proposal"];
+            /**
+             * Feedback
+             * @description every click, oldest first: late and undone ones too
+             */
+            feedback: components["schemas"]["Feedback"][];
+            execution: components["schemas"]["Execution"] | null;
+        };
+        /**
+         * HistoryPage
+         * @description Closed proposals, newest first unless asked for otherwise.
+         */
+        HistoryPage: {
+            /** Next Cursor */
+            next_cursor: string | null;
+            /** Items */
+            items: components["schemas"]["HistoryEntry"][];
+        };
+        /**
          * Incident
          * @description A safety violation or an emergency stop, with what the cameras saw in the seconds before.
          */
@@ -3290,6 +3517,29 @@ export interface components {
          * @enum {string}
          */
         Mode: "propose_only" | "execute_approved";
+        /**
+         * NearbyLabel
+         * @description A label of the same skill. alike: it was given in a situation like this one, no entry 2 cm away.
+         */
+        NearbyLabel: {
+            /** Proposal Id */
+            proposal_id: number;
+            /** Number */
+            number: number;
+            /** X */
+            x: number;
+            /** Y */
+            y: number;
+            /**
+             * Value
+             * @enum {integer}
+             */
+            value: -1 | 0 | 1;
+            /** Predicted Feedback */
+            predicted_feedback: number;
+            /** Alike */
+            alike: boolean;
+        };
         /**
          * Next
          * @description What a trainer is to judge, of all robots and slots; theirs until `judge.until`.
@@ -7729,6 +7979,256 @@ export interface operations {
             };
         };
     };
+    list_history: {
+        parameters: {
+            query?: {
+                skill?: string | null;
+                verdict?: ("good" | "neutral" | "bad" | "none") | null;
+                /** @description somebody says so by now */
+                label?: ("good" | "neutral" | "bad" | "cant_tell") | null;
+                executed?: boolean | null;
+                violation?: boolean | null;
+                /** @description its number */
+                episode?: number | null;
+                purpose?: ("training" | "evaluation") | null;
+                order?: "asc" | "desc";
+                /** @description `next_cursor` of the page before; none: first page */
+                cursor?: string | null;
+                /** @description most items of a page */
+                limit?: number;
+            };
+            header?: never;
+            path: {
+                experiment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["HistoryPage"];
+                };
+            };
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_episodes: {
+        parameters: {
+            query?: {
+                /** @description `next_cursor` of the page before; none: first page */
+                cursor?: string | null;
+                /** @description most items of a page */
+                limit?: number;
+            };
+            header?: never;
+            path: {
+                experiment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["EpisodePage"];
+                };
+            };
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_episode: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                experiment_id: number;
+                /** @description the episode's number in its experiment */
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Episode"];
+                };
+            };
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     report_execution: {
         parameters: {
             query?: never;
@@ -8709,6 +9209,86 @@ export interface operations {
             };
         };
     };
+    export_metrics: {
+        parameters: {
+            query?: {
+                /** @description csv, or jsonl: one JSON object a line */
+                format?: "csv" | "jsonl";
+            };
+            header?: never;
+            path: {
+                experiment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The table */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv; charset=utf-8": unknown;
+                    "application/x-ndjson": unknown;
+                };
+            };
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     compare_experiments: {
         parameters: {
             query: {
@@ -9020,6 +9600,98 @@ export interface operations {
             };
             /** @description Nothing has this id or name */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_critic_map: {
+        parameters: {
+            query?: {
+                /** @description left out: the proposal's own */
+                skill?: string | null;
+                /** @description of the map's longer side */
+                points?: number;
+                /** @description a parameter beside x and y, the same everywhere */
+                other?: string[];
+            };
+            header?: never;
+            path: {
+                proposal_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CriticMap"];
+                };
+            };
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The state of things doesn't allow it; `current` and `allowed` say what does */
+            409: {
                 headers: {
                     [name: string]: unknown;
                 };
