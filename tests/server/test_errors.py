@@ -38,7 +38,7 @@ async def test_every_route_answers_errors_in_one_shape(tmp_path: Path) -> None:
         walked = 0
         for path, operations in document["paths"].items():
             here = re.sub(r"\{(name|camera)\}", "nothing", re.sub(r"\{\w+_id\}", "987654", path))
-            here = here.replace("{index}", "0")
+            here = re.sub(r"\{(index|number)\}", "7", here)
             other = next(m for m in ("PUT", "TRACE") if m.lower() not in operations)
             assert check_problem(await live.http.request(other, here), 405).type == "/problems/method-not-allowed"
             for method, operation in operations.items():
