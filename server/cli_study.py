@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import logging
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, NoReturn
 
@@ -13,11 +13,11 @@ from rich.console import Console
 
 from agent.algorithm import AgentError
 from agent.study.algorithms import CONTESTANTS
+from agent.study.claims import CLAIMS, claimed
 from agent.study.execution import ProcessDied
 from agent.study.plan import CLICKS, SCENARIOS, Plan, StudyError
 from robot_adapters.base import AdapterError, Unavailable
-from server.study_claims import CLAIMS, run_claim
-from server.study_plans import FIRST_SEED, ablated, competing, ladder, named, plan_of
+from server.study_plans import FIRST_SEED, SEEDS, ablated, competing, ladder, named, plan_of
 from server.study_runs import Place, run_study
 from server.study_screen import results_table
 
@@ -54,9 +54,9 @@ Resume = Annotated[bool, typer.Option("--resume", help="go on with the study in 
 DataDir = Annotated[Path | None, typer.Option(help="data directory [default: data, or SEED_DATA_DIR]")]
 AsJson = Annotated[bool, typer.Option("--json", help="print one JSON object as the last line")]
 
-ClaimSeeds = Annotated[int, typer.Option("--seeds", min=1, help="seeds, each trained anew")]
-ClaimFirst = Annotated[int, typer.Option("--first-seed", min=0, max=2**31 - 1, help="the first of them")]
-ClaimRollouts = Annotated[int, typer.Option("--rollouts", min=1, max=1000, help="rollouts of a success rate")]
+ClaimRollouts = Annotated[
+    int | None, typer.Option("--rollouts", min=1, max=1000, help="rollouts of a success rate [default: 100]")
+]
 
 
 @app.command("list")
@@ -70,8 +70,8 @@ def list_studies() -> None:
         "ablation: the preset recommended, one ingredient taken away at a time; --ladder: from paper_sim up to it"
     )
     typer.echo(f"  tasks: {', '.join(CLICKS)}; ingredients: {', '.join(ablated())}; --ladder: {', '.join(ladder())}")
-    for claim in CLAIMS.values():
-        typer.echo(f"{claim.name}: {claim.title}")
+    for claim, title in CLAIMS.items():
+        typer.echo(f"{claim}: {title}")
 
 
 @app.command("paper-sim")
@@ -161,42 +161,44 @@ def ablation(  # noqa: PLR0917  as above
 
 @app.command()
 def composition(  # noqa: PLR0917  as above
-    seeds: ClaimSeeds = 5,
-    first_seed: ClaimFirst = FIRST_SEED,
-    rollouts: ClaimRollouts = 100,
+    seeds: Seeds = None,
+    first_seed: FirstSeed = None,
+    rollouts: ClaimRollouts = None,
     jobs: Jobs = None,
     out: Out = None,
+    resume: Resume = False,
     data_dir: DataDir = None,
     as_json: AsJson = False,
 ) -> None:
     """Zero-shot reward composition: critics of subgoals in scenes and orders they were never trained in."""
-    _claim("composition", range(first_seed, first_seed + seeds), rollouts, Place(out, data_dir, jobs, False), as_json)
+    given = {"seeds": seeds, "first_seed": first_seed, "rollouts": rollouts}
+    _claim("composition", given, Place(out, data_dir, jobs, resume), as_json=as_json)
 
 
 @app.command()
 def imitation(  # noqa: PLR0917  as above
-    seeds: ClaimSeeds = 5,
-    first_seed: ClaimFirst = FIRST_SEED,
-    rollouts: ClaimRollouts = 100,
+    seeds: Seeds = None,
+    first_seed: FirstSeed = None,
+    rollouts: ClaimRollouts = None,
     jobs: Jobs = None,
     out: Out = None,
+    resume: Resume = False,
     data_dir: DataDir = None,
     as_json: AsJson = False,
 ) -> None:
     """Imitation: behaviour cloning from clean, bad and mixed demonstrations, beside SEED with as many labels."""
-    _claim("imitation", range(first_seed, first_seed + seeds), rollouts, Place(out, data_dir, jobs, False), as_json)
+    given = {"seeds": seeds, "first_seed": first_seed, "rollouts": rollouts}
+    _claim("imitation", given, Place(out, data_dir, jobs, resume), as_json=as_json)
 
 
-def _claim(name: str, seeds: Sequence[int], rollouts: int, place: Place, as_json: bool) -> None:
-    """Run a study of a claim and tell what came out."""
-    try:
-        told = run_claim(CLAIMS[name], seeds, rollouts, place, _stderr)
-    except (AgentError, AdapterError) as error:
-        _give_up(str(error), error.remedy, FAILED if isinstance(error, ProcessDied | Unavailable) else USAGE)
-    except KeyboardInterrupt:
-        _give_up("interrupted: nothing was written", f"run it again: seed study {name}", INTERRUPTED)
-    table = told.pop("table")
-    typer.echo(json.dumps(told) if as_json else "\n".join(table))
+def _claim(name: str, given: Mapping[str, Any], place: Place, *, as_json: bool) -> None:
+    """Run a study of a claim, without physics."""
+
+    def plan() -> Plan:
+        first = FIRST_SEED if given["first_seed"] is None else given["first_seed"]
+        return claimed(name, range(first, first + (given["seeds"] or SEEDS)), given["rollouts"] or 100)
+
+    _run(name, plan, given, place, as_json=as_json)
 
 
 def _run(name: str, plan: Callable[[], Plan], given: Mapping[str, Any], place: Place, *, as_json: bool) -> None:
@@ -208,7 +210,11 @@ def _run(name: str, plan: Callable[[], Plan], given: Mapping[str, Any], place: P
         _give_up(str(error), error.remedy, FAILED if isinstance(error, ProcessDied | Unavailable) else USAGE)
     except KeyboardInterrupt:
         again = f"seed study {name} --resume --out {place.folder(name)}"
-        _give_up("interrupted: every run goes on from its last evaluation", again, INTERRUPTED)
+        _give_up(
+            "interrupted: what is finished stays, and every other run goes on from its last evaluation",
+            again,
+            INTERRUPTED,
+        )
     for run, why in done.failed.items():
         _stderr.print(f"[bold red]failed:[/] {run}: {why}", soft_wrap=True)
     for warning in done.warnings:

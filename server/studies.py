@@ -123,6 +123,9 @@ def _scenario(folder: Folder, plan: Plan, scenario: Scenario) -> StudyScenario:
                 sem=[None] * len(found.x) if sem is None else sem.tolist(),
             )
         )
+    drawn = (
+        "Points: mean of the seeds." if plan.claim else "Lines: mean of the seeds; thin lines: one standard error away."
+    )
     theirs = [
         StudyPaperCurve(
             algorithm=each.algorithm,
@@ -138,7 +141,7 @@ def _scenario(folder: Folder, plan: Plan, scenario: Scenario) -> StudyScenario:
         title=scenario.title,
         axis=scenario.axis.value,
         measure=scenario.measure.value,
-        caption=f"Lines: mean of the seeds; thin lines: one standard error away. {explained(folder, plan, scenario)}",
+        caption=f"{drawn} {explained(folder, plan, scenario)}",
         curves=curves,
         paper=theirs,
     )

@@ -66,6 +66,8 @@ class Builders:
     """The same commanded step by step."""
     without_physics: Callable[[str], Env]
     """The same where commands are carried out exactly: quicker, and fresh policies come across the reward."""
+    stage: Callable[[Task], Adapter]
+    """A robot without physics with a task that may have no name: a scene made for one study."""
     device: DeviceName = "cpu"
     """Where SEED trains; the baselines train on the CPU."""
 

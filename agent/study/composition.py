@@ -12,14 +12,28 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from agent.algorithm import Algorithm, Label, Problem
 from agent.config import SEED, SeedSettings
-from agent.study.episodes import SkillEpisodes
-from agent.study.lessons import Lesson, Policy, Stage, deterministic, kept, learn, lessons, mean, success, whole
+from agent.study.episodes import Done, SkillEpisodes
+from agent.study.lessons import (
+    Heard,
+    Lesson,
+    Policy,
+    Stage,
+    deterministic,
+    kept,
+    learn,
+    lessons,
+    mean,
+    success,
+    unheard,
+    whole,
+)
 from agent.study.scenes import FurtherPan, SwappedHotdog, ThreeBlocks, TwoToys, across_the_table
 from robot_adapters.base import Array, SkillCall
 from robot_adapters.tasks import collecting_toy as collecting
@@ -30,6 +44,9 @@ from robot_adapters.tasks.cooking_hotdog import CookingHotdog
 from robot_adapters.tasks.stacking import Stacking
 from robot_adapters.tasks.sweeping import Sweeping
 
+CONTESTANTS: Mapping[str, str] = {"composed": "composed", "undivided": "undivided", "anew": "trained anew"}
+UNTRAINED = ("composed", "undivided")
+"""Those that get no feedback in the new scene: theirs is that of the tasks that they come from."""
 REACHED = 0.9
 EVERY = 5
 """Feedback between two looks at whether training may end."""
@@ -173,10 +190,14 @@ def piece(task: Task, settings: SeedSettings, seed: int) -> Algorithm:
 
 @dataclass(frozen=True)
 class Trained:
-    """What training came to. feedback: labels until 90 % of the rollouts succeeded; None if the budget ended before."""
+    """What training came to. feedback: labels until 90 % of the rollouts succeeded; None if the budget ended before.
+
+    rate: share of the rollouts that succeed at its end.
+    """
 
     feedback: int | None
     budget: int
+    rate: float
 
     @property
     def counted(self) -> int:
@@ -195,19 +216,23 @@ class Trial:
         self._lessons: list[tuple[int, Lesson]] = []
         """Each with the subgoal that was next."""
 
-    def run(self, stage: Stage, budget: int, rollouts: int) -> Trained:
-        """Give the lessons."""
+    def run(
+        self, stage: Stage, budget: int, rollouts: int, heard: Callable[[Done | None], None] = lambda _: None
+    ) -> Trained:
+        """Give the lessons. heard: told of each, and what was executed upon it."""
         judged_on = SkillEpisodes(self._task, stage(self._task), first_subgoal=False)
         try:
             policy = deterministic(self.learner, self._task)
             for lesson in lessons(self.learner, self._task, stage, seed=self._seed, feedback=budget):
+                heard(lesson.done)
                 self._lessons.append((self._task.subgoal(lesson.state), lesson))
                 served = {subgoal for subgoal, of in self._lessons if of.value == 1}
                 if lesson.number % EVERY or len(served) < len(self._task.subgoals):
                     continue
-                if success(judged_on, policy, rollouts, least=REACHED) >= REACHED:
-                    return Trained(lesson.number, budget)
-            return Trained(None, budget)
+                rate = success(judged_on, policy, rollouts, least=REACHED)
+                if rate >= REACHED:
+                    return Trained(lesson.number, budget, rate)
+            return Trained(None, budget, success(judged_on, policy, rollouts))
         finally:
             judged_on.close()
 
@@ -257,36 +282,61 @@ class Outcome:
     anew: Trained
 
 
-def run(stage: Stage, seeds: Sequence[int], *, rollouts: int = 100, preset: str = "recommended") -> list[Outcome]:
+def run(stage: Stage, seeds: Sequence[int], *, rollouts: int = 100) -> list[Outcome]:
     """Train on the source tasks, compose without any more feedback, and train anew to compare.
 
     stage: builds the robot for a task, one of `agent.study.scenes` among them.
     """
-    settings = SeedSettings(**SEED.presets[preset])
-    return [outcome for seed in seeds for outcome in _one_seed(stage, settings, seed, rollouts)]
+    return [outcome(name, stage, seed, rollouts, unheard) for seed in seeds for name in COMPOSITIONS]
 
 
-def _one_seed(stage: Stage, settings: SeedSettings, seed: int, rollouts: int) -> list[Outcome]:
+def rows() -> list[str]:
+    """One for each new scene."""
+    return list(COMPOSITIONS)
+
+
+def budgets(row: str) -> dict[str, int]:
+    """Labels of the source tasks, or in the new scene."""
+    return dict.fromkeys(UNTRAINED, sum(SOURCES[source].budget for source in _sources(row))) | {
+        "anew": COMPOSITIONS[row].budget
+    }
+
+
+def outcome(row: str, stage: Stage, seed: int, rollouts: int, heard: Heard) -> Outcome:
+    """One scene and one seed."""
+    composition, settings = COMPOSITIONS[row], SeedSettings(**SEED.presets["recommended"])
     pieces: dict[str, list[Algorithm]] = {}
     wholes: dict[str, Algorithm] = {}
-    took: dict[str, int] = {}
-    for name, source in SOURCES.items():
+    took = 0
+    for name in _sources(row):
+        source = SOURCES[name]
         trial = Trial(source.task(), settings, seed)
-        took[name] = trial.run(stage, source.budget, rollouts).counted
+        took += trial.run(stage, source.budget, rollouts, partial(heard, UNTRAINED)).counted
         wholes[name], pieces[name] = trial.learner, trial.pieces(source.places)
-    outcomes = []
-    for name, composition in COMPOSITIONS.items():
-        task: Task = composition.task()
-        episodes = SkillEpisodes(task, stage(task), first_subgoal=False)
-        policies = (composed(composition, task, pieces), rebound(composition, task, wholes))
-        try:
-            rates = [success(episodes, policy, rollouts) for policy in policies]
-        finally:
-            episodes.close()
-        sources = sum(took[source] for source in {step.source for step in composition.steps})
-        anew = Trial(task, settings, seed).run(stage, composition.budget, rollouts)
-        outcomes.append(Outcome(name, seed, rates[0], rates[1], sources, anew))
-    return outcomes
+    task: Task = composition.task()
+    episodes = SkillEpisodes(task, stage(task), first_subgoal=False)
+    policies = (composed(composition, task, pieces), rebound(composition, task, wholes))
+    try:
+        solved = [success(episodes, policy, rollouts) for policy in policies]
+    finally:
+        episodes.close()
+    anew = Trial(task, settings, seed).run(stage, composition.budget, rollouts, partial(heard, ["anew"]))
+    return Outcome(row, seed, solved[0], solved[1], took, anew)
+
+
+def rates(of: Outcome) -> dict[str, float]:
+    """Of each contestant."""
+    return {"composed": of.composed, "undivided": of.rebound, "anew": of.anew.rate}
+
+
+def read(told: Mapping[str, Any]) -> Outcome:
+    """From JSON."""
+    return Outcome(**{**told, "anew": Trained(**told["anew"])})
+
+
+def _sources(row: str) -> list[str]:
+    """The tasks that its pieces come from."""
+    return list(dict.fromkeys(step.source for step in COMPOSITIONS[row].steps))
 
 
 def table_of(outcomes: Sequence[Outcome]) -> list[str]:

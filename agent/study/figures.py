@@ -68,6 +68,8 @@ def caption(folder: Folder, plan: Plan, scenario: Scenario, width: int) -> str:
 
 def explained(folder: Folder, plan: Plan, scenario: Scenario) -> str:
     """What holds for a scenario's curves however they are drawn."""
+    if plan.claim:
+        return about(folder, plan, scenario)
     ends = "A curve ends where its first seed did; seeds far behind the others aren't in it yet."
     text = f"{ends} {about(folder, plan, scenario)}"
     if paper.curves(scenario.name):

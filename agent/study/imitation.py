@@ -16,6 +16,7 @@ from agent.bc import Cloning, Demonstration
 from agent.config import SEED, SeedSettings
 from agent.study.episodes import FIRST_START, SkillEpisodes
 from agent.study.lessons import (
+    Heard,
     Policy,
     Stage,
     deterministic,
@@ -23,6 +24,7 @@ from agent.study.lessons import (
     lessons,
     mean,
     success,
+    unheard,
     whole,
     whole_problem,
 )
@@ -33,6 +35,14 @@ from robot_adapters.tasks.collecting_toy import CollectingToy
 from robot_adapters.tasks.stacking import Stacking
 from robot_adapters.tasks.sweeping import Sweeping
 
+CLONES, EVALUATED = ("bc", "bc-keypoints"), "evaluated"
+CONTESTANTS: Mapping[str, str] = {
+    "bc": "behaviour cloning",
+    "bc-keypoints": "behaviour cloning with key points",
+    "evaluated": "SEED",
+}
+STEPS = 40
+"""Demonstrated steps, or labels: what SEED needs for the longest of these tasks, and a little more."""
 BAD_STEPS = 0.3
 """Share of a suboptimal demonstrator's steps that the task's judge would call bad."""
 ATTEMPTS = 1000
@@ -74,7 +84,7 @@ class Outcome:
     seed_feedback: float
 
 
-def demonstrated(who: Demonstrator, stage: Stage, steps: int, seed: int) -> list[Demonstration]:
+def demonstrated(who: Demonstrator, stage: Stage, steps: int, seed: int, heard: Heard = unheard) -> list[Demonstration]:
     """So many steps of a demonstrator, carried out one after another; a new episode wherever one is over."""
     task: Task = who.task()
     rng = np.random.default_rng(seed)
@@ -86,37 +96,61 @@ def demonstrated(who: Demonstrator, stage: Stage, steps: int, seed: int) -> list
             errs = rng.random() < who.bad
             call = kept(task, _bad(task, robot, rng) if errs else task.sample_good(robot.state, rng))
             shown.append(Demonstration(robot.state, call))
-            if robot.execute(call).over:
+            done = robot.execute(call)
+            heard(CLONES, done)
+            if done.over:
                 robot.begin(int(rng.integers(FIRST_START)))
         return shown
     finally:
         robot.close()
 
 
-def run(stage: Stage, seeds: Sequence[int], *, steps: int = 40, rollouts: int = 100) -> list[Outcome]:
+def run(stage: Stage, seeds: Sequence[int], *, rollouts: int = 100) -> list[Outcome]:
     """Clone every demonstrator twice, without and with key points, and train SEED with as many labels.
 
     All have the recommended networks, and as many gradient steps as SEED takes for so many labels.
     """
-    return [_outcome(who, stage, seed, steps, rollouts) for seed in seeds for who in DEMONSTRATORS]
+    return [outcome(who.name, stage, seed, rollouts, unheard) for seed in seeds for who in DEMONSTRATORS]
 
 
-def _outcome(who: Demonstrator, stage: Stage, seed: int, steps: int, rollouts: int) -> Outcome:
+def rows() -> list[str]:
+    """One for each demonstrator."""
+    return [who.name for who in DEMONSTRATORS]
+
+
+def budgets(row: str) -> dict[str, int]:  # noqa: ARG001 - of every row alike
+    """Demonstrated steps, or labels."""
+    return dict.fromkeys(CONTESTANTS, STEPS)
+
+
+def outcome(row: str, stage: Stage, seed: int, rollouts: int, heard: Heard) -> Outcome:
+    """One demonstrator and one seed."""
+    who = next(each for each in DEMONSTRATORS if each.name == row)
     task: Task = who.task()
-    shown = demonstrated(who, stage, steps, seed)
+    shown = demonstrated(who, stage, STEPS, seed, heard)
     recommended = SEED.presets["recommended"]
     policies = [
         cloned(task, shown, SeedSettings(**{**recommended, **changed}), seed) for changed in (PLAIN, dict[str, Any]())
     ]
     learner = whole(task, SeedSettings(**recommended), seed)
-    for _ in lessons(learner, task, stage, seed=seed, feedback=steps):
-        pass
+    for lesson in lessons(learner, task, stage, seed=seed, feedback=STEPS):
+        heard([EVALUATED], lesson.done)
     episodes = SkillEpisodes(task, stage(task), first_subgoal=False)
     try:
-        rates = [success(episodes, policy, rollouts) for policy in (*policies, deterministic(learner, task))]
+        solved = [success(episodes, policy, rollouts) for policy in (*policies, deterministic(learner, task))]
     finally:
         episodes.close()
-    return Outcome(who.name, seed, steps, *rates)
+    return Outcome(who.name, seed, STEPS, *solved)
+
+
+def rates(of: Outcome) -> dict[str, float]:
+    """Of each contestant."""
+    return dict(zip(CONTESTANTS, (of.plain, of.grounded, of.seed_feedback), strict=True))
+
+
+def read(told: Mapping[str, Any]) -> Outcome:
+    """From JSON."""
+    return Outcome(**told)
 
 
 def cloned(task: Task, shown: Sequence[Demonstration], settings: SeedSettings, seed: int) -> Policy:

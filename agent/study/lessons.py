@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from agent.algorithm import Algorithm, Label, Problem
 from agent.config import SEED, SeedSettings
-from agent.study.episodes import FIRST_START, SkillEpisodes
+from agent.study.episodes import FIRST_START, Done, SkillEpisodes
 from agent.study.scenes import across_the_table
 from robot_adapters.base import Adapter, Array, SkillCall
 from robot_adapters.tasks.base import Task, position_fields, state_bounds
@@ -17,6 +17,8 @@ from robot_adapters.tasks.base import Task, position_fields, state_bounds
 Stage = Callable[[Task], Adapter]
 """Builds a robot that stages a task. Studies are handed it: which robot it is, they don't know."""
 Policy = Callable[[Array], SkillCall]
+Heard = Callable[[Iterable[str], Done | None], None]
+"""Told of every label, or demonstrated step: for which contestants it counts, and what was executed upon it."""
 
 
 @dataclass(frozen=True)
@@ -27,6 +29,8 @@ class Lesson:
     state: Array
     call: SkillCall
     value: int
+    done: Done | None
+    """What came of it where it was executed."""
 
 
 def whole(task: Task, settings: SeedSettings, seed: int) -> Algorithm:
@@ -53,9 +57,10 @@ def lessons(learner: Algorithm, task: Task, stage: Stage, *, seed: int, feedback
             call = kept(task, learner.propose(state).call)
             value = task.judge(state, call)
             learn(learner, [Label(number, state, call, value)])
-            if value == 1 and robot.execute(call).over:
+            done = robot.execute(call) if value == 1 else None
+            if done is not None and done.over:
                 robot.begin(int(starts.integers(FIRST_START)))
-            yield Lesson(number, state, call, value)
+            yield Lesson(number, state, call, value, done)
     finally:
         robot.close()
 
@@ -86,6 +91,10 @@ def kept(task: Task, call: SkillCall) -> SkillCall:
     """The call with its parameters kept inside this task's bounds: learners here know only those of the table."""
     spec = next(s for s in task.skills if s.name == call.skill)
     return SkillCall(call.skill, tuple(np.clip(call.parameters, spec.low, spec.high).tolist()))
+
+
+def unheard(names: Iterable[str], done: Done | None) -> None:
+    """Nobody listens."""
 
 
 def mean(values: Sequence[float]) -> str:

@@ -33,8 +33,9 @@ class Measure(StrEnum):
     """While training, counted up."""
 
 
-Kind = Literal["feedback", "reward", "low_level", "low_level_feedback"]
-"""Skills judged before they run; skills rewarded after; low-level actions rewarded; low-level actions judged."""
+Kind = Literal["feedback", "reward", "low_level", "low_level_feedback", "claim"]
+"""Skills judged before they run; skills rewarded after; low-level actions rewarded; low-level actions judged; one of
+those that a claim of the paper is about (`agent.study.claims`)."""
 
 
 class Frozen(BaseModel):
@@ -181,13 +182,20 @@ class Plan(Frozen):
         groups: list[list[Run]] = []
         latest: dict[tuple[str, str], list[Run]] = {}
         for run in self.runs:
-            curve = run.scenario.name, run.contestant.name
-            group = latest.get(curve)
-            if group is None or len(group) >= self.together or run.contestant.kind != "feedback":
-                group = latest[curve] = []
+            claim = run.contestant.kind == "claim"
+            company = run.scenario.name, str(run.seed) if claim else run.contestant.name
+            most = {"feedback": self.together, "claim": len(self.contestants)}.get(run.contestant.kind, 1)
+            group = latest.get(company)
+            if group is None or len(group) >= most:
+                group = latest[company] = []
                 groups.append(group)
             group.append(run)
         return tuple(tuple(group) for group in groups)
+
+    @property
+    def claim(self) -> bool:
+        """Whether it is about a claim of the paper: measured at the end only, and by a table of its own."""
+        return self.runs[0].contestant.kind == "claim"
 
     @property
     def scenarios(self) -> tuple[Scenario, ...]:

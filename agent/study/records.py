@@ -2,6 +2,7 @@
 
 - `study.json`: the plan and the versions; `results.csv`, `table.md`, `figures/`: what came out
 - `runs/<id>/run.json`: everything that a run was made of; `evaluations.csv`: a row an evaluation
+- `runs/<id>/outcome.json`: what came of a claim's row, in the folder of its first run
 - `runs/<id>/progress.json`: how far it is, for whoever watches
 - `runs/<id>/state.json` and the files it names: from where it goes on after it was interrupted
 - `together/<id of the first>.json`: the same of runs that share a process, all at the same moment
@@ -24,7 +25,7 @@ from agent.study.plan import Axis, Plan, Run, StudyError
 
 STUDY, RESULTS, TABLE, FIGURES, RUNS = "study.json", "results.csv", "table.md", "figures", "runs"
 RUN, EVALUATIONS, PROGRESS, STATE = "run.json", "evaluations.csv", "progress.json", "state.json"
-TOGETHER, LOCK = "together", ".lock"
+OUTCOME, TOGETHER, LOCK = "outcome.json", "together", ".lock"
 
 State = Literal["waiting", "running", "interrupted", "finished", "failed"]
 

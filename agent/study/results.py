@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from agent.study import paper
+from agent.study.claims import claim_table
 from agent.study.curves import value_of
 from agent.study.evaluations import Row
 from agent.study.oracle import oracle_of
@@ -80,19 +81,30 @@ def write_results(folder: Folder, plan: Plan) -> list[Outcome]:
     """Write both files; what they tell."""
     found = outcomes(folder, plan)
     _write_csv(folder, plan)
-    (folder.path / TABLE).write_text(_tables(folder, plan, found), "utf-8")
+    table = _claim_table(folder, plan) if plan.claim else _tables(folder, plan, found)
+    (folder.path / TABLE).write_text(table, "utf-8")
     return found
 
 
 def budget_note(plan: Plan, scenario: Scenario) -> str:
     """In words: the budget, the paper's where it is another, seeds, adapter and evaluation."""
     budget = next(run.budget for run in plan.runs if run.scenario.name == scenario.name and run.shown)
-    unit = UNIT[scenario.axis]
+    unit, seeds = UNIT[scenario.axis], f"{len(plan.seeds)} seed{'s' if len(plan.seeds) > 1 else ''}"
+    if plan.claim:
+        most = ", ".join(
+            f"{run.contestant.title} {run.budget}"
+            for run in plan.runs
+            if run.scenario.name == scenario.name and run.seed == plan.seeds[0]
+        )
+        return (
+            f"Each after its feedback, or demonstrated steps, of which it gets at most: {most}. {seeds}; "
+            f"{plan.adapter} adapter; {plan.protocol.rollouts} rollouts."
+        )
     differs = paper.curves(scenario.name) and budget != scenario.usual_budget
     papers = f" (the paper's figure goes to {scenario.usual_budget:,})" if differs else ""
     protocol = plan.protocol
     return (
-        f"Budget {budget:,} {unit} a run{papers}; {len(plan.seeds)} seed{'s' if len(plan.seeds) > 1 else ''}; "
+        f"Budget {budget:,} {unit} a run{papers}; {seeds}; "
         f"{plan.adapter} adapter; {protocol.evaluations} evaluations of {protocol.rollouts} rollouts."
     )
 
@@ -151,6 +163,16 @@ def _tables(folder: Folder, plan: Plan, found: Sequence[Outcome]) -> str:
         lines.append(f"| {each.scenario.title} | {each.contestant.title} | {here} ({of}) | {told} |")
     source = f"The paper's: {paper.source()}."
     return "\n".join([*lines, "", "A decision is a proposed skill, or a low-level action.", "", source]) + "\n"
+
+
+def _claim_table(folder: Folder, plan: Plan) -> str:
+    """Markdown: the claim's own."""
+    seeds = f"{len(plan.seeds)} seeds from {plan.seeds[0]}"
+    about_it = (
+        f"{seeds}, {plan.adapter} adapter, {plan.protocol.rollouts} rollouts each, of the rows that are finished."
+    )
+    rows = claim_table(folder, plan) or ["Nothing was measured yet."]
+    return "\n".join([f"# {plan.name}", "", about_it, "", *rows, ""])
 
 
 def _line(each: Outcome) -> str:

@@ -18,6 +18,7 @@ from typing import Any
 
 from agent.algorithm import AgentError
 from agent.study.algorithms import Builders, course
+from agent.study.claims import work_on_row
 from agent.study.courses import LABELS, Course, FeedbackCourse
 from agent.study.episodes import FIRST_START
 from agent.study.evaluations import Row, append_row, keep_rows
@@ -50,6 +51,8 @@ def work(group: Sequence[Run], plan: Plan, path: Path, builders: Builders, stop:
             folder.run(run.id).mkdir(parents=True, exist_ok=True)
             lock = held.enter_context((folder.run(run.id) / LOCK).open("ab"))
             fcntl.flock(lock, fcntl.LOCK_EX)  # the orphan of a killed study may still be ending
+        if group[0].contestant.kind == "claim":
+            return work_on_row(group, plan, folder, builders, stop)
         workers = [_Worker(run, plan, folder, len(group)) for run in group]
         _Group(workers, group, folder).work(builders, stop)
         return [worker.progress for worker in workers]

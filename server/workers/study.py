@@ -27,6 +27,7 @@ def builders(adapter: str) -> Builders:
         partial(_robot, adapter),
         partial(_environment, adapter),
         partial(_environment, WITHOUT_PHYSICS),
+        any_task,
         Settings().learner_device,
     )
 

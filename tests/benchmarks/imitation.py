@@ -14,19 +14,16 @@ from tests.benchmarks import _clicks as clicks
 from tests.benchmarks.composition import ROLLOUTS, kinematic
 from tests.benchmarks.result import Result
 
-STEPS = 40
-"""Demonstrated steps, or labels: what SEED needs for the longest of these tasks, and a little more."""
-
 
 def run() -> Result:
     """The value is SEED's mean success over all rows; the baseline that of cloning with key points."""
     seeds = clicks.seeds(1)
     torch.set_num_threads(1)
-    outcomes = imitation.run(kinematic, seeds, steps=STEPS, rollouts=ROLLOUTS)
+    outcomes = imitation.run(kinematic, seeds, rollouts=ROLLOUTS)
     return Result(
         "imitation",
         statistics.fmean(o.seed_feedback for o in outcomes),
-        f"share of rollouts solved after {STEPS} labels ({len(seeds)} seeds, {ROLLOUTS} rollouts each)",
+        f"share of rollouts solved after {imitation.STEPS} labels ({len(seeds)} seeds, {ROLLOUTS} rollouts each)",
         baseline=statistics.fmean(o.grounded for o in outcomes),
         lines=(*imitation.table_of(outcomes), *map(str, outcomes)),
     )

@@ -157,6 +157,28 @@ def test_folders_of_something_else_are_left_alone(tmp_path: Path) -> None:
     wrong(["study", "paper-sim", "--resume", "--out", other], "can't be read")
 
 
+def test_a_killed_study_of_a_claim_goes_on_with_the_rows_that_are_left(tmp_path: Path) -> None:
+    out = tmp_path / "study"
+    command = ["study", "imitation", "--seeds", 1, "--rollouts", 2, "--jobs", 1, "--out", out]
+
+    def states() -> dict[str, str]:
+        folder = Folder(out)
+        return {run.id: folder.progress(run.id, live=False).state for run in folder.plan().runs}
+
+    with begun(*command) as study:
+        wait_for(lambda: out.joinpath("study.json").exists() and "finished" in states().values(), "a row", 120)
+        study.send_signal(signal.SIGKILL)
+    finished = [name for name, state in states().items() if state == "finished"]
+    assert 3 <= len(finished) < 24, "a row has three runs, and there are eight rows"
+    kept = {name: (out / "runs" / name / EVALUATIONS).stat().st_mtime_ns for name in finished}
+    wrong(["study", "imitation", "--resume", "--seeds", 2, "--out", out], "--seeds", "planned already")
+    done = told(["study", "imitation", "--resume", "--jobs", 1, "--out", out])
+    assert (done["runs"], done["finished"], done["failed"]) == (24, 24, 0)
+    assert {name: (out / "runs" / name / EVALUATIONS).stat().st_mtime_ns for name in finished} == kept
+    assert {run.decisions for run in (Folder(out).rows(name)[-1] for name in states())} == {40}
+    assert "| Two toys, two orders, two places |" in (out / "table.md").read_text("utf-8")
+
+
 def test_the_list_names_every_task_and_algorithm() -> None:
     listed = CliRunner().invoke(app, ["study", "list"])
     assert listed.exit_code == 0

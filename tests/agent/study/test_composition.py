@@ -82,7 +82,7 @@ def test_two_critics_of_stacking_build_a_higher_stack_without_feedback() -> None
 
 def test_the_table_says_what_was_not_reached() -> None:
     outcomes = [
-        Outcome("x", 1, composed=1.0, rebound=0.5, sources=10, anew=Trained(40, 100)),
-        Outcome("x", 2, composed=0.8, rebound=0.5, sources=20, anew=Trained(None, 100)),
+        Outcome("x", 1, composed=1.0, rebound=0.5, sources=10, anew=Trained(40, 100, 0.9)),
+        Outcome("x", 2, composed=0.8, rebound=0.5, sources=20, anew=Trained(None, 100, 0.0)),
     ]
     assert table_of(outcomes)[2] == "| x | 90 ± 10 % | 50 ± 0 % | 15 ± 5 | 70 ± 30 (1 of 2 not within 100) |"
