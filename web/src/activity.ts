@@ -1,7 +1,8 @@
 // What is going on now, in words.
 import { skillName, t } from "./i18n";
+import { ME } from "./me";
 import { isOpen } from "./robots";
-import { pendingFor } from "./selectors";
+import { chosenFor, pendingFor } from "./selectors";
 import { type TrainerState, wordFor } from "./state";
 
 export interface Activity {
@@ -75,9 +76,17 @@ function waiting(state: TrainerState, drawn: boolean): Activity {
   if (state.experiment?.teacher) return busy(t("activity.teacher", { teacher: state.experiment.teacher }));
   const pending = state.proposal ? pendingFor(state, state.proposal.id) : null;
   if (!drawn) return busy(t("activity.pictures"));
-  if (pending === null) return { tone: "you", text: t("activity.you") };
+  if (pending === null) return asking(state);
   const word = wordFor(pending);
   return busy(state.connection === "open" ? t("activity.sending", { word }) : t("activity.kept", { word }));
+}
+
+/** The open proposal is on the screen: whether it waits for this trainer, or for others. */
+function asking(state: TrainerState): Activity {
+  const { proposal } = state;
+  if (proposal && (proposal.heard.includes(ME) || chosenFor(state, proposal.id) !== null))
+    return busy(t("activity.others"));
+  return state.asks === "no" ? busy(t("activity.notYours")) : { tone: "you", text: t("activity.you") };
 }
 
 function evaluating(state: TrainerState): Activity {

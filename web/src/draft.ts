@@ -2,7 +2,7 @@
 import type { Catalogue } from "./http";
 import { t, taskWords } from "./i18n";
 import { baseOf, differences, type Schema, settingsOf, type Values } from "./schemaForm";
-import type { Experiment, ExperimentCreate, Mode, Problem } from "./wire";
+import type { Aggregation, Experiment, ExperimentCreate, Mode, Problem } from "./wire";
 
 export const PARTS = ["settings", "adapter_settings", "teacher_settings"] as const;
 export type Part = (typeof PARTS)[number];
@@ -15,6 +15,9 @@ export interface Draft {
   preset: string;
   teacher: string;
   mode: Mode;
+  aggregation: Aggregation;
+  /** Whether each trainer judges proposals of their own. */
+  parallel: boolean;
   seed: string;
   seeds: string;
   num_envs: string;
@@ -41,6 +44,8 @@ export function firstDraft(catalogue: Catalogue): Draft {
     preset: presetFor(catalogue, algorithm?.name ?? ""),
     teacher: "",
     mode: modeFor(catalogue, adapter),
+    aggregation: "first",
+    parallel: false,
     seed: "0",
     seeds: "1",
     num_envs: "1",
@@ -91,6 +96,8 @@ export function cloneOf(catalogue: Catalogue, from: Experiment): Draft {
     preset: from.preset ?? "",
     teacher: from.teacher ?? "",
     mode: modeFor(catalogue, from.adapter) === "propose_only" ? "propose_only" : from.mode,
+    aggregation: from.aggregation,
+    parallel: from.together.parallel,
     seed: String(from.seed),
     num_envs: String(from.num_envs),
     feedback_timeout: from.feedback_timeout === null ? "" : String(from.feedback_timeout),
@@ -120,6 +127,8 @@ export function bodiesOf(catalogue: Catalogue, draft: Draft): ExperimentCreate[]
       preset: draft.preset || null,
       teacher: draft.teacher || null,
       mode: draft.mode,
+      aggregation: draft.aggregation,
+      together: { parallel: draft.parallel && !draft.teacher },
       seed,
       num_envs: number(draft.num_envs),
       feedback_timeout: draft.feedback_timeout.trim() === "" ? null : number(draft.feedback_timeout),

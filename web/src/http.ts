@@ -3,6 +3,7 @@ import { t } from "./i18n";
 import { ME } from "./me";
 import type {
   AdapterInfo,
+  Aggregation,
   AlgorithmInfo,
   AutoApproval,
   AutoApprovalRecord,
@@ -38,6 +39,7 @@ import type {
   TagInfo,
   TaskInfo,
   TeacherInfo,
+  Together,
   TrainerFigures,
   Value,
   Verb,
@@ -201,6 +203,15 @@ export const setMode = (id: number, mode: Mode) =>
 /** Null turns it off. */
 export const setAutoApproval = (id: number, rule: AutoApproval | null) =>
   request<Experiment>("PATCH", `/experiments/${id}`, { auto_approval: rule });
+
+export interface TogetherChange {
+  aggregation?: Aggregation;
+  together?: Partial<Together>;
+}
+
+/** How several trainers' answers add up, and who judges what. */
+export const setTogether = (id: number, change: TogetherChange) =>
+  request<Experiment>("PATCH", `/experiments/${id}`, change);
 
 export const calibration = (id: number) => request<Calibration>("GET", `/experiments/${id}/calibration`);
 

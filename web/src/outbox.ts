@@ -1,12 +1,14 @@
 // Clicks that the service hasn't acknowledged yet, kept across reloads. The click's own id makes sending it again
 // harmless: the service stores it once.
-import type { Value } from "./wire";
+import type { Looked, Value } from "./wire";
 
 export interface Click {
   click_id: string;
   proposal_id: number;
   /** Whether the predicted feedback was shown beside it. */
   estimate_shown?: boolean;
+  /** What was on the screen: a click on something else than the proposal shows by then decides nothing. */
+  looked?: Looked;
   value: Value;
 }
 

@@ -8,9 +8,11 @@ export interface RobotState {
   execution: Execution | null;
   /** The execution whose video covers the stills; it stays until a newer proposal brings newer stills. */
   live: number | null;
+  /** What its proposal is to this page's trainer: theirs before all others', theirs as well, or nothing. */
+  asks: "first" | "too" | "no";
 }
 
-export const STILL: RobotState = { proposal: null, execution: null, live: null };
+export const STILL: RobotState = { proposal: null, execution: null, live: null, asks: "no" };
 
 export function isOpen(proposal: Proposal): boolean {
   return !proposal.closed_at;
@@ -20,14 +22,15 @@ export function isOpen(proposal: Proposal): boolean {
 export type Judged = Record<number, Value>;
 
 /** Whether this robot's proposal waits for this page. */
-export function waits({ proposal }: RobotState, judged: Judged): boolean {
-  return proposal !== null && isOpen(proposal) && judged[proposal.id] === undefined;
+export function waits({ proposal, asks }: RobotState, judged: Judged): boolean {
+  return proposal !== null && isOpen(proposal) && asks !== "no" && judged[proposal.id] === undefined;
 }
 
-/** The proposals that wait for this page, of all robots, oldest first. */
+/** The proposals that wait for this page, of all robots: the one that it was given, then the others, oldest first. */
 export function queueOf(robots: RobotState[], judged: Judged): Proposal[] {
+  const place = ({ robot, number }: Proposal) => (robots[robot]?.asks === "first" ? 0 : number);
   const open = robots.flatMap((robot) => (robot.proposal && waits(robot, judged) ? [robot.proposal] : []));
-  return open.sort((one, other) => one.number - other.number);
+  return open.sort((one, other) => place(one) - place(other));
 }
 
 /** The chosen robot; else the one whose turn it is to be judged; else the one before, which may move by that click. */

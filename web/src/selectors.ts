@@ -1,7 +1,7 @@
 // What the page asks of its state. Pure.
 import { isOpen } from "./robots";
 import type { TrainerState } from "./state";
-import type { Value } from "./wire";
+import type { Experiment, Value } from "./wire";
 
 /** The click made for a proposal and not acknowledged yet. */
 export function pendingFor(state: TrainerState, proposalId: number): Value | null {
@@ -25,6 +25,7 @@ export function judgeable(state: TrainerState, drawnId: number | null): boolean 
     !experiment.teacher &&
     experiment.lifecycle === "running" &&
     !experiment.halted &&
+    state.asks !== "no" &&
     chosenFor(state, proposal.id) === null
   );
 }
@@ -34,4 +35,11 @@ export function overlayWanted(state: TrainerState): boolean {
   const { proposal, experiment } = state;
   if (!proposal || state.live !== null) return false;
   return isOpen(proposal) || (proposal.close_reason === "judged" && experiment?.lifecycle === "running");
+}
+
+/** As the service rules: undo is for an experiment that runs, on the scene that was judged. */
+export function canStillUndo(experiment: Experiment | null): boolean {
+  if (experiment?.lifecycle !== "running" || experiment.halted) return false;
+  if (experiment.num_envs > 1) return true; // the phase says nothing of a single robot
+  return experiment.phase !== "starting" && experiment.phase !== "observing";
 }

@@ -12,10 +12,23 @@ import { Recording } from "./recording";
 import { type Action, initial, reduce, type TrainerState } from "./state";
 import { type Connection, Stream, streamUrl } from "./stream";
 import { Telling } from "./telling";
-import type { AutoApproval, Experiment, Problem, Reported, StreamEvent, Value, Verb } from "./wire";
+import { judgeOf } from "./together";
+import type {
+  AutoApproval,
+  Experiment,
+  Judge,
+  Problem,
+  Proposal,
+  Reported,
+  StreamEvent,
+  Value,
+  Verb,
+} from "./wire";
 
 const RESEND_MS = 3000;
 const STOP_RETRY_MS = 1000;
+/** Signs of life are told at most so often: a lease lasts for several of them. */
+const LOOK_MS = 2000;
 
 export class Session {
   readonly frames = new FrameSink();
@@ -26,13 +39,17 @@ export class Session {
   private resend: ReturnType<typeof setTimeout> | undefined;
   private stopRetry: ReturnType<typeof setTimeout> | undefined;
   private stopWanted = false;
+  private lookedAt = Number.NEGATIVE_INFINITY;
+  private leasedAt = 0;
+  private leaseSeconds = Number.POSITIVE_INFINITY;
+  private given: number | null = null;
 
   constructor(
     readonly id: number,
     private readonly dispatch: Dispatch<Action>,
   ) {
     this.outbox = new Outbox(id, window.localStorage);
-    this.stream = new Stream(streamUrl(id), {
+    this.stream = new Stream(streamUrl(id), ME, {
       onEvent: this.onEvent,
       onFrame: (frame) => {
         this.recording.keep(frame);
@@ -69,18 +86,31 @@ export class Session {
   }
 
   /** Keep first, then send: a click survives a dead connection and a reload. */
-  judge(proposalId: number, value: Value, estimateShown: boolean): void {
-    if (this.outbox.all().some((click) => click.proposal_id === proposalId)) return;
+  judge(proposal: Proposal, value: Value, estimateShown: boolean): void {
+    if (this.outbox.all().some((click) => click.proposal_id === proposal.id)) return;
+    const { observation_id, policy_version } = proposal;
     const click: Click = {
       click_id: newId(),
-      proposal_id: proposalId,
+      proposal_id: proposal.id,
       value,
       estimate_shown: estimateShown,
+      looked: { observation_id, policy_version },
     };
     this.outbox.add(click);
     this.send(click);
+    this.leasedAt = performance.now();
     this.dispatch({ kind: "pending", clicks: this.outbox.all() });
   }
+
+  /** The trainer is at it: what they have before them stays theirs. */
+  look = (): void => {
+    const now = performance.now();
+    if (now - this.lookedAt < LOOK_MS || !this.stream.send({ type: "look" })) return;
+    this.lookedAt = this.leasedAt = now;
+  };
+
+  /** Seconds until what this trainer has before them goes to the others, without a sign of life. */
+  leaseLeft = (): number => this.leaseSeconds - (performance.now() - this.leasedAt) / 1000;
 
   /** True once it is kept. */
   async report(executionId: number, outcome: Reported): Promise<boolean> {
@@ -130,6 +160,10 @@ export class Session {
 
   async setAutoApproval(rule: AutoApproval | null): Promise<void> {
     await this.guard(http.setAutoApproval(this.id, rule));
+  }
+
+  async setTogether(change: http.TogetherChange): Promise<void> {
+    await this.guard(http.setTogether(this.id, change));
   }
 
   async evaluate(rollouts: number): Promise<void> {
@@ -217,6 +251,9 @@ export class Session {
     if (event.type === "feedback_stored") this.outbox.remove(event.feedback.click_id);
     if (event.type === "refused" && event.request_id) this.onRefused(event.request_id, event.problem.status);
     if (event.type === "snapshot") this.onSnapshot(event);
+    if (event.type === "snapshot" || event.type === "experiment_changed")
+      this.leaseSeconds = event.experiment.together.lease_seconds;
+    if (event.type === "snapshot" || event.type === "judges_changed") this.onJudges(event.judges);
     if ((event.type === "snapshot" || event.type === "experiment_changed") && event.experiment.halted)
       this.stopWanted = false;
     this.dispatch({ kind: "event", event });
@@ -228,6 +265,13 @@ export class Session {
       (proposal) => this.dispatch({ kind: "backdrop", proposal }),
       () => undefined, // no picture yet is fine
     );
+  }
+
+  /** What this trainer is given anew is theirs for a whole lease. */
+  private onJudges(judges: Judge[]): void {
+    const given = judgeOf(judges)?.proposal_id ?? null;
+    if (given !== this.given) this.leasedAt = performance.now();
+    this.given = given;
   }
 
   private onRefused(requestId: string, status: number): void {

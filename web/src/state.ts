@@ -1,16 +1,20 @@
 // All a trainer's page knows, in one reducer fed by the stream. Pure; the effects are in session.ts.
 
+import { addMetric, addPoint, type CurvePoint } from "./curve";
 import { type History, loaded, remember, withExecution, withOwn } from "./history";
 import { skillName, t } from "./i18n";
 import { ME } from "./me";
 import type { Click } from "./outbox";
 import { isOpen, type Judged, type RobotState, STILL, saying, shownRobot } from "./robots";
+import { canStillUndo } from "./selectors";
 import type { Connection } from "./stream";
+import { overtaken, showing } from "./together";
 import type {
   Evaluation,
   Execution,
   Experiment,
   Feedback,
+  Judge,
   MetricPoint,
   Problem,
   Proposal,
@@ -30,6 +34,10 @@ export interface TrainerState {
   ready: boolean;
   bootId: string | null;
   experiment: Experiment | null;
+  /** Every open proposal, in the order they opened. */
+  opened: Proposal[];
+  /** Who is there to judge, and at which proposal. */
+  judges: Judge[];
   robots: RobotState[];
   /** The robot that someone wants to see; null: whichever is to be judged, or moves. */
   chosen: number | null;
@@ -38,6 +46,7 @@ export interface TrainerState {
   proposal: Proposal | null;
   execution: Execution | null;
   live: number | null;
+  asks: RobotState["asks"];
   undoable: Feedback | null;
   /** The robot whose motion ends that; null: any may. */
   undoableOn: number | null;
@@ -57,11 +66,6 @@ export interface TrainerState {
   nextNotice: number;
   /** Why the page can't be shown at all. */
   fatal: Problem | null;
-}
-
-export interface CurvePoint {
-  feedback: number;
-  successes: number;
 }
 
 export type Action =
@@ -86,12 +90,15 @@ export const initial: TrainerState = {
   ready: false,
   bootId: null,
   experiment: null,
+  opened: [],
+  judges: [],
   robots: [STILL],
   chosen: null,
   shown: 0,
   proposal: null,
   execution: null,
   live: null,
+  asks: "no",
   undoable: null,
   undoableOn: null,
   pending: [],
@@ -108,8 +115,10 @@ export const initial: TrainerState = {
 };
 
 export function reduce(state: TrainerState, action: Action): TrainerState {
-  const next = step(state, action);
-  if (next === state) return state;
+  const changed = step(state, action);
+  if (changed === state) return state;
+  const { opened, judges, experiment } = changed;
+  const next = { ...changed, robots: showing(changed.robots, opened, judges, experiment) };
   const shown = shownRobot(next.robots, next.chosen, next.shown, !next.experiment?.teacher, next.judged);
   return { ...next, shown, ...(next.robots[shown] ?? STILL) };
 }
@@ -168,13 +177,21 @@ function onEvent(state: TrainerState, event: StreamEvent): TrainerState {
       return withExperiment(state, event.experiment);
     case "proposal_opened":
       return onOpened(state, event.proposal);
+    case "proposal_changed":
+      return event.proposal.closed_at
+        ? withClosed(state, event.proposal)
+        : { ...state, opened: state.opened.map((each) => newer(each, event.proposal)) };
     case "proposal_closed":
-      return withClosed(state, event.proposal);
-    case "feedback_stored":
+      return withClosed(withOvertaken(state, event.proposal), event.proposal);
+    case "judges_changed":
+      return { ...state, judges: event.judges };
+    case "feedback_stored": {
+      const mine = event.undoable && event.feedback.trainer === ME && canStillUndo(state.experiment);
       return {
-        ...(event.undoable && canStillUndo(state.experiment) ? withUndoable(state, event.feedback) : state),
+        ...(mine ? withUndoable(state, event.feedback) : state),
         pending: without(state.pending, event.feedback.click_id),
       };
+    }
     case "feedback_undone":
       return {
         ...state,
@@ -218,16 +235,17 @@ function onSnapshot(state: TrainerState, event: SnapshotEvent): TrainerState {
   const restarted = state.bootId !== null && state.bootId !== event.boot_id;
   const robots = Array.from({ length: event.experiment.num_envs }, (_, robot): RobotState => {
     const { proposal: last, live } = state.robots[robot] ?? STILL;
-    const open = event.proposals.find((proposal) => proposal.robot === robot);
     const execution = event.executions.find((each) => each.robot === robot) ?? null;
     const closed: Proposal | null =
       last && isOpen(last) ? { ...last, closed_at: event.server_time, close_reason: "interrupted" } : last;
-    return { proposal: open ?? closed, execution, live: execution?.id ?? (open ? null : live) };
+    return { ...STILL, proposal: closed, execution, live: execution?.id ?? live };
   });
   const next: TrainerState = {
     ...state,
     ready: true,
     bootId: event.boot_id,
+    opened: event.proposals,
+    judges: event.judges,
     robots,
     undoable: event.undoable ?? null,
     undoableOn: null,
@@ -243,11 +261,17 @@ function withRobot(state: TrainerState, robot: number, change: Partial<RobotStat
   return { ...state, robots };
 }
 
+/** What was said is remembered as long as it is asked: an undo may bring this one back. */
 function onOpened(state: TrainerState, proposal: Proposal): TrainerState {
-  const { execution, live, proposal: last } = state.robots[proposal.robot] ?? STILL;
-  const next = withRobot(state, proposal.robot, { proposal, live: execution ? live : null });
-  return { ...next, judged: except(state.judged, proposal.id, last?.id) };
+  const others = state.opened.filter(({ id }) => id !== proposal.id);
+  const asked = new Set(others.map(({ id }) => id));
+  const gone = Object.keys(state.judged)
+    .map(Number)
+    .filter((id) => !asked.has(id));
+  return { ...state, opened: [...others, proposal], judged: except(state.judged, proposal.id, ...gone) };
 }
+
+const newer = (one: Proposal, other: Proposal): Proposal => (one.id === other.id ? other : one);
 
 function except(judged: Judged, ...ids: (number | undefined)[]): Judged {
   return Object.fromEntries(Object.entries(judged).filter(([id]) => !ids.includes(Number(id))));
@@ -255,7 +279,8 @@ function except(judged: Judged, ...ids: (number | undefined)[]): Judged {
 
 /** The click that an undo would take back, and the robot that it is about, as long as that is known. */
 function withUndoable(state: TrainerState, undoable: Feedback): TrainerState {
-  const on = state.robots.findIndex(({ proposal }) => proposal?.id === undoable.proposal_id);
+  const open = state.opened.find(({ id }) => id === undoable.proposal_id);
+  const on = open?.robot ?? state.robots.findIndex(({ proposal }) => proposal?.id === undoable.proposal_id);
   return { ...state, undoable, undoableOn: on >= 0 ? on : null };
 }
 
@@ -275,19 +300,21 @@ function withExperiment(state: TrainerState, experiment: Experiment): TrainerSta
   };
 }
 
-/** As the service rules: undo is for an experiment that runs, on the scene that was judged. */
-function canStillUndo(experiment: Experiment | null): boolean {
-  if (experiment?.lifecycle !== "running" || experiment.halted) return false;
-  if (experiment.num_envs > 1) return true; // the phase says nothing of a single robot
-  return experiment.phase !== "starting" && experiment.phase !== "observing";
-}
-
 /** A proposal closed without a verdict: a reset or a death ends its episode, and an undo has nothing more to undo. */
-function withClosed(state: TrainerState, proposal: Proposal): TrainerState {
+function withClosed(before: TrainerState, proposal: Proposal): TrainerState {
   const { robot, close_reason: reason } = proposal;
+  const state = { ...before, opened: before.opened.filter(({ id }) => id !== proposal.id) };
   if (proposal.id !== state.robots[robot]?.proposal?.id) return state;
   const dropped = reason === "withdrawn" || reason === "interrupted";
   return withRobot(dropped ? endUndo(state, robot) : state, robot, { proposal });
+}
+
+/** Somebody's approval of another proposal has closed this one: nobody's look or click is just gone. */
+function withOvertaken(state: TrainerState, proposal: Proposal): TrainerState {
+  const approved = state.history.find((entry) => entry.proposal.id === proposal.superseded_by)?.proposal;
+  const seen = state.robots[proposal.robot]?.proposal?.id === proposal.id;
+  const text = overtaken(proposal, approved ?? null, state.judged[proposal.id], seen);
+  return text === null ? state : withNotice(state, "info", text);
 }
 
 function onExecutionEnded(state: TrainerState, execution: Execution, violations: string[]): TrainerState {
@@ -324,8 +351,13 @@ function onAcknowledged(state: TrainerState, requestId: string, feedback: Feedba
   const judged = click ? { ...state.judged, [click.proposal_id]: click.value } : state.judged;
   const next = { ...state, pending, judged };
   if (feedback?.status === "practice") return withNotice(next, "info", t("notice.practice"));
+  // Nobody was told that this click closed anything: others are still asked, and it can be taken back.
+  if (feedback?.status === "stored" && click && pending !== state.pending && canStillUndo(state.experiment))
+    return withUndoable(next, feedback);
   if (feedback?.status !== "late") return next;
-  return withNotice(next, "warning", t("notice.late", { word: wordFor(feedback.value) }));
+  const late = t("notice.late", { word: wordFor(feedback.value) });
+  const because = feedback.late_because;
+  return withNotice(next, "warning", because ? `${late} ${t("notice.lateBecause", { because })}` : late);
 }
 
 function onRefused(state: TrainerState, requestId: string | null, problem: Problem): TrainerState {
@@ -350,21 +382,6 @@ function withNotice(state: TrainerState, tone: Notice["tone"], text: string): Tr
     notices: [...others, { id: state.nextNotice, tone, text }],
     nextNotice: state.nextNotice + 1,
   };
-}
-
-function addMetric(curve: CurvePoint[], point: MetricPoint): CurvePoint[] {
-  const successes = point.values.successes;
-  return successes === undefined ? curve : addPoint(curve, { feedback: point.feedback, successes });
-}
-
-/** Sorted by feedback, one point each, the newest word on an amount of feedback wins. */
-function addPoint(curve: CurvePoint[], point: CurvePoint): CurvePoint[] {
-  let at = curve.length;
-  while (at > 0 && (curve[at - 1]?.feedback ?? 0) > point.feedback) at -= 1;
-  const same = at > 0 ? curve[at - 1] : undefined;
-  if (same?.feedback !== point.feedback) return [...curve.slice(0, at), point, ...curve.slice(at)];
-  if (same.successes === point.successes) return curve;
-  return [...curve.slice(0, at - 1), point, ...curve.slice(at)];
 }
 
 function without(clicks: Click[], clickId: string): Click[] {

@@ -32,8 +32,10 @@ export class Stream {
   /** Where to go on after a break: the service's run, and the number of the last event heard in it. */
   private heard: { bootId: string; seq: number } | null = null;
 
+  /** `trainer`: who sits at this page to judge; null: it only looks. */
   constructor(
     private readonly url: string,
+    private readonly trainer: string | null,
     private readonly handlers: StreamHandlers,
   ) {}
 
@@ -66,9 +68,12 @@ export class Stream {
   private connect(): void {
     clearTimeout(this.retry);
     this.handlers.onConnection("connecting");
-    const { heard } = this;
-    const since = heard ? `?${new URLSearchParams({ boot_id: heard.bootId, since: `${heard.seq}` })}` : "";
-    const socket = new WebSocket(this.url + since);
+    const { heard, trainer } = this;
+    const query = new URLSearchParams({
+      ...(trainer !== null && { trainer }),
+      ...(heard && { boot_id: heard.bootId, since: `${heard.seq}` }),
+    });
+    const socket = new WebSocket(`${this.url}?${query}`);
     socket.binaryType = "arraybuffer";
     this.socket = socket;
     this.owedSince = Date.now();

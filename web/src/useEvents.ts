@@ -8,7 +8,7 @@ export function useEvents(id: number, onEvent: (event: StreamEvent) => void): Co
   const [connection, setConnection] = useState<Connection>("connecting");
   const hear = useEffectEvent(onEvent);
   useEffect(() => {
-    const stream = new Stream(streamUrl(id), {
+    const stream = new Stream(streamUrl(id), null, {
       onEvent: (event) => hear(event),
       // the service sends the next picture after this one was answered: it never is
       onFrame: () => new Promise(() => undefined),

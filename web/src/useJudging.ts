@@ -2,11 +2,11 @@
 
 import { useEffect, useState } from "react";
 import { t } from "./i18n";
-import { queueOf } from "./robots";
+import { isOpen, queueOf } from "./robots";
 import { chosenFor, judgeable } from "./selectors";
 import type { TrainerState } from "./state";
 import { useDrawnAt } from "./useDrawnAt";
-import type { Value } from "./wire";
+import type { Proposal, Value } from "./wire";
 
 /** Nobody sees a picture and judges it in less time: such a press was meant for the proposal before. */
 export const LOOK_MS = 250;
@@ -39,6 +39,7 @@ function whyNot(state: TrainerState, ready: boolean): string | null {
     return t("judge.otherRobots");
   if (state.execution) return t("judge.moving");
   if (proposal && chosenFor(state, proposal.id) !== null) return t("judge.already");
+  if (proposal && isOpen(proposal) && state.asks === "no") return t("judge.notYours");
   return t("judge.notYet");
 }
 
@@ -46,7 +47,7 @@ function whyNot(state: TrainerState, ready: boolean): string | null {
 export function useJudging(
   state: TrainerState,
   drawnId: number | null,
-  send: (proposalId: number, value: Value) => void,
+  send: (proposal: Proposal, value: Value) => void,
 ): Judging {
   const clock = useDrawnAt(drawnId);
   const [seenId, setSeenId] = useState<number | null>(null);
@@ -69,10 +70,10 @@ export function useJudging(
   }, [hint]);
 
   const judge = (value: Value, pressedAt: number) => {
-    if (ready && drawnId !== null && clock.age(pressedAt) >= LOOK_MS) {
+    if (ready && drawnId !== null && state.proposal?.id === drawnId && clock.age(pressedAt) >= LOOK_MS) {
       setHint(null);
       clock.clicked(pressedAt);
-      send(drawnId, value);
+      send(state.proposal, value);
       return;
     }
     const text = whyNot(state, ready);

@@ -10,6 +10,10 @@ export type ExperimentUpdate = Schemas["ExperimentUpdate"];
 export type Lifecycle = Schemas["Lifecycle"];
 export type Mode = Schemas["Mode"];
 export type Proposal = Schemas["Proposal"];
+export type Aggregation = Schemas["Aggregation"];
+export type Looked = Schemas["Looked"];
+export type Judge = Schemas["Judge"];
+export type Together = Schemas["Together"];
 export type SceneInfo = Schemas["SceneInfo"];
 export type TrainerFigures = Schemas["TrainerFigures"];
 export type Telemetry = Schemas["Telemetry"];
@@ -59,7 +63,9 @@ export type StreamEvent = Numbered<
   | Schemas["Resumed"]
   | Schemas["ExperimentChanged"]
   | Schemas["ProposalOpened"]
+  | Schemas["ProposalChanged"]
   | Schemas["ProposalClosed"]
+  | Schemas["JudgesChanged"]
   | Schemas["FeedbackStored"]
   | Schemas["FeedbackUndone"]
   | Schemas["FeedbackRelabelled"]
@@ -78,6 +84,7 @@ export type StreamEvent = Numbered<
 
 export type ClientMessage =
   | Schemas["ClientFeedback"]
+  | Schemas["ClientLook"]
   | Schemas["ClientRelabel"]
   | Schemas["ClientUndo"]
   | Schemas["ClientHalt"]

@@ -12,7 +12,9 @@ import { byTestId, press, show } from "./render";
 type Sent = [proposal: number, value: Value];
 
 function Page({ state, drawnId, sent }: { state: TrainerState; drawnId: number | null; sent: Sent[] }) {
-  const { ready, accepting, hint, judge } = useJudging(state, drawnId, (id, value) => sent.push([id, value]));
+  const { ready, accepting, hint, judge } = useJudging(state, drawnId, ({ id }, value) =>
+    sent.push([id, value]),
+  );
   return (
     <div data-testid="page" data-ready={accepting}>
       <ActivityLine

@@ -85,7 +85,8 @@ describe("one queue", () => {
     expect([1, 2, 3].map((id) => chosenFor(all, id))).toEqual([1, 1, 1]);
     const undone = next(all, { type: "feedback_undone", feedback: feedback(2) }, opened(1, 2));
     expect([undone.proposal?.id, judgeable(undone, 2), judgeable(undone, 3)]).toEqual([2, true, false]);
-    const later = next(all, opened(2, 4), opened(0, 5), opened(1, 6));
+    const judged = [closed(0, 1), closed(1, 2), closed(2, 3)];
+    const later = next(all, ...judged, opened(2, 4), opened(0, 5), opened(1, 6));
     expect([later.proposal?.id, later.judged]).toEqual([4, {}]);
   });
 

@@ -46,7 +46,7 @@ describe("stream", () => {
     vi.stubGlobal("WebSocket", Socket);
     Socket.made = [];
     states = [];
-    stream = new Stream("ws://service/stream", {
+    stream = new Stream("ws://service/stream", "ann", {
       onEvent: () => undefined,
       onFrame: async () => undefined,
       onConnection: (connection) => states.push(connection),
@@ -83,12 +83,12 @@ describe("stream", () => {
     Socket.newest().hear({ type: "pong", seq: null });
     Socket.newest().close();
     vi.advanceTimersByTime(400);
-    expect(Socket.newest().url).toBe("ws://service/stream?boot_id=run-1&since=8");
+    expect(Socket.newest().url).toBe("ws://service/stream?trainer=ann&boot_id=run-1&since=8");
     Socket.newest().hear({ type: "resumed", missed: 1, seq: 9 });
     expect(states.at(-1)).toBe("open");
     Socket.newest().close(); // before the missed event came
     vi.advanceTimersByTime(400);
-    expect(Socket.newest().url).toBe("ws://service/stream?boot_id=run-1&since=8");
+    expect(Socket.newest().url).toBe("ws://service/stream?trainer=ann&boot_id=run-1&since=8");
   });
 
   it("tries at once when the device is online again", () => {

@@ -2,8 +2,8 @@
 
 import { useEffect, useRef, useState } from "react";
 import type uPlot from "uplot";
+import type { CurvePoint } from "../curve";
 import { t } from "../i18n";
-import type { CurvePoint } from "../state";
 import { onThemeChange, themeColor, themeFont } from "../theme";
 
 const HEIGHT = 190;

@@ -6,9 +6,10 @@ import type { Session } from "../session";
 import type { TrainerState } from "../state";
 import type { Experiment, TaskInfo } from "../wire";
 import { AtTheRobot } from "./AtTheRobot";
-import { Dialog } from "./Dialog";
+import { Dialog, type Question } from "./Dialog";
 import { Incidents } from "./Incidents";
 import { ReadOuts } from "./ReadOuts";
+import { TogetherPanel } from "./Together";
 
 export interface OperatorPanelProps {
   state: TrainerState;
@@ -16,6 +17,7 @@ export interface OperatorPanelProps {
   session: Session;
   task: TaskInfo | null;
   simulated: boolean;
+  onAsk: (question: Question) => void;
 }
 
 export function ResetDialog(props: {
@@ -71,7 +73,8 @@ export function NeedsHand({ onOpen }: { onOpen: () => void }) {
   );
 }
 
-export function OperatorPanel({ state, experiment, session, task, simulated }: OperatorPanelProps) {
+export function OperatorPanel(props: OperatorPanelProps) {
+  const { state, experiment, session, task, simulated } = props;
   const [resetting, setResetting] = useState(false);
   const resettable = ["running", "paused"].includes(experiment.lifecycle) && !experiment.halted;
   return (
@@ -93,6 +96,15 @@ export function OperatorPanel({ state, experiment, session, task, simulated }: O
       >
         {t("operator.resetAsk")}
       </button>
+      {!experiment.teacher && (
+        <TogetherPanel
+          experiment={experiment}
+          judges={state.judges}
+          opened={state.opened}
+          session={session}
+          onAsk={props.onAsk}
+        />
+      )}
       <Incidents id={experiment.id} newest={state.newestIncident} />
       {resetting && (
         <ResetDialog

@@ -1,11 +1,39 @@
 // How the page looks and speaks in this browser: colours and language, remembered.
 import { useState } from "react";
 import { chooseLanguage, LANGUAGES, nameOf, t, useLanguage } from "../i18n";
+import { isName, ME, rename } from "../me";
 import { change, RESTS, useSettings } from "../settings";
 import { chooseTheme, THEMES, useTheme } from "../theme";
 import { Dialog } from "./Dialog";
-import { Choice } from "./Field";
+import { Choice, Field } from "./Field";
 import { Sliders } from "./icons";
+
+/** Whose clicks this page sends, where nobody signs in. */
+function Name() {
+  const [name, setName] = useState(ME);
+  const wrong = !isName(name.trim());
+  return (
+    <form
+      className="name"
+      onSubmit={(event) => {
+        event.preventDefault();
+        if (!wrong) rename(name.trim());
+      }}
+    >
+      <Field
+        label={t("settings.name")}
+        name="trainer"
+        value={name}
+        error={wrong ? t("settings.nameWrong") : undefined}
+        onChange={setName}
+      />
+      <button type="submit" className="button" disabled={wrong || name.trim() === ME} data-testid="rename">
+        {t("common.set")}
+      </button>
+      <p className="hint">{t("settings.nameWhat")}</p>
+    </form>
+  );
+}
 
 function Panel({ onClose }: { onClose: () => void }) {
   const chosen = useTheme();
@@ -31,6 +59,7 @@ function Panel({ onClose }: { onClose: () => void }) {
             ))}
           </fieldset>
         </div>
+        <Name />
         <Choice
           label={t("settings.language")}
           name="language"

@@ -67,6 +67,7 @@ export function SidePanel(props: SidePanelProps) {
         session={session}
         task={task}
         simulated={simulated}
+        onAsk={onAsk}
       />
       <ModeSwitch mode={experiment.mode} onChange={changeMode} />
       {simulated && (

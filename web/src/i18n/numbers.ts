@@ -43,3 +43,7 @@ export function compact(value: number): string {
   const format = new Intl.NumberFormat(language(), { notation: "compact", maximumSignificantDigits: 3 });
   return format.format(value).replace("-", "−");
 }
+
+/** "ann, bob and cyd". */
+export const listed = (names: string[]) =>
+  new Intl.ListFormat(language(), { type: "conjunction" }).format(names);

@@ -6,6 +6,7 @@ import { Choice, Field } from "../components/Field";
 import { Header } from "../components/Header";
 import { ProblemCard } from "../components/ProblemCard";
 import { SettingsPart } from "../components/SettingsPart";
+import { RULES } from "../components/Together";
 import {
   bodiesOf,
   cloneOf,
@@ -24,7 +25,7 @@ import { t, taskWords } from "../i18n";
 import { Link, navigate, useSearch } from "../router";
 import type { Json } from "../schemaForm";
 import { useCatalogue } from "../useCatalogue";
-import type { Experiment, Mode, Problem } from "../wire";
+import type { Aggregation, Experiment, Mode, Problem } from "../wire";
 
 const BASICS = [
   "name",
@@ -36,6 +37,8 @@ const BASICS = [
   "seed",
   "num_envs",
   "mode",
+  "aggregation",
+  "together",
   "feedback_timeout",
   "tags",
 ];
@@ -263,6 +266,7 @@ function Choices({ catalogue, draft, problem, onChange }: BasicsProps) {
         error={errorAt(problem, "teacher")}
         onChange={(teacher) => onChange({ teacher, teacher_settings: {} })}
       />
+      {!draft.teacher && <TogetherChoices draft={draft} problem={problem} onChange={onChange} />}
       <Choice
         label={t("create.approved")}
         name="mode"
@@ -273,6 +277,35 @@ function Choices({ catalogue, draft, problem, onChange }: BasicsProps) {
         ]}
         error={errorAt(problem, "mode")}
         onChange={(mode) => onChange({ mode: mode as Mode })}
+      />
+    </>
+  );
+}
+
+/** How several people judge; both can be changed while it runs. */
+function TogetherChoices({ draft, problem, onChange }: Omit<BasicsProps, "catalogue">) {
+  return (
+    <>
+      <Choice
+        label={t("create.rule")}
+        name="aggregation"
+        value={draft.aggregation}
+        hint={t(`together.rulesWhat.${draft.aggregation}`)}
+        options={RULES.map((value) => ({ value, label: t(`together.rules.${value}`) }))}
+        error={errorAt(problem, "aggregation")}
+        onChange={(value) => onChange({ aggregation: value as Aggregation })}
+      />
+      <Choice
+        label={t("create.proposals")}
+        name="parallel"
+        value={draft.parallel ? "own" : "shared"}
+        hint={t("create.proposalsWhat")}
+        options={[
+          { value: "shared", label: t("together.shared") },
+          { value: "own", label: t("together.own") },
+        ]}
+        error={errorAt(problem, "together")}
+        onChange={(value) => onChange({ parallel: value === "own" })}
       />
     </>
   );

@@ -25,6 +25,7 @@ import { Tour } from "../components/Tour";
 import { TrainerTitle } from "../components/TrainerTitle";
 import { useDrawn, Views } from "../components/Views";
 import { ViewTools } from "../components/ViewTools";
+import { Votes } from "../components/Votes";
 import { type Entry, lastMotion } from "../history";
 import { t } from "../i18n";
 import { ImageStore } from "../images";
@@ -35,6 +36,7 @@ import { useSettings } from "../settings";
 import { useSimulated, useTask } from "../useCatalogue";
 import { useJudging } from "../useJudging";
 import { usePace } from "../usePace";
+import { useSignsOfLife } from "../useSignsOfLife";
 import type { Experiment, Reported, Value } from "../wire";
 import type { Swipe } from "../zoom";
 
@@ -74,12 +76,13 @@ export function TrainerPage({ id }: { id: number }) {
   const current = drawn !== null && drawn === proposal;
   const overlay = current && overlayWanted(state);
   const drawnId = overlay && !drawn.closed_at ? drawn.id : null;
-  const { ready, accepting, hint, judge } = useJudging(state, drawnId, (proposalId, value) => {
-    session.judge(proposalId, value, settings.estimate);
+  const { ready, accepting, hint, judge } = useJudging(state, drawnId, (judged, value) => {
+    session.judge(judged, value, settings.estimate);
     pace.click();
   });
   const judging = experiment?.lifecycle === "running" && !experiment.halted;
 
+  useSignsOfLife(session.look);
   useEffect(() => {
     if (experiment) document.title = `${experiment.name} · SEED`;
   }, [experiment]);
@@ -143,6 +146,14 @@ export function TrainerPage({ id }: { id: number }) {
                 canUndo={undoable !== null}
                 onUndo={() => undoable && session.undo(undoable.id)}
               />
+              {experiment && (
+                <Votes
+                  proposal={proposal}
+                  experiment={experiment}
+                  judges={state.judges}
+                  leaseLeft={session.leaseLeft}
+                />
+              )}
               <JudgeBar
                 ready={ready}
                 chosen={proposal && current && judging ? chosenFor(state, proposal.id) : null}

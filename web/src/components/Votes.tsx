@@ -1,0 +1,80 @@
+// How far the open proposal's votes are, where several trainers judge; never what anybody has said.
+import { useEffect, useState } from "react";
+import { t } from "../i18n";
+import { listed } from "../i18n/numbers";
+import { ME } from "../me";
+import { isOpen } from "../robots";
+import { asked, judgeOf, missing, needed } from "../together";
+import type { Experiment, Judge, Proposal } from "../wire";
+
+export interface VotesProps {
+  proposal: Proposal | null;
+  experiment: Experiment;
+  judges: Judge[];
+  /** Seconds until what one has before oneself goes to the others, without a sign of life. */
+  leaseLeft: () => number;
+}
+
+const CHECK_MS = 500;
+/** Seconds before a lease's end at which it is told of; of a short one a third. */
+const TOLD = 15;
+
+function rule(proposal: Proposal, experiment: Experiment): string {
+  const need = needed(proposal, experiment) ?? 0;
+  if (experiment.aggregation === "majority") return t("together.majorityNeeds", { need });
+  return experiment.aggregation === "unanimous" ? t("together.unanimousNeeds") : t("together.weightedNeeds");
+}
+
+/** What to say of it; null where this trainer is alone with it. */
+export function votesIn(proposal: Proposal, experiment: Experiment, judges: Judge[]): string | null {
+  const others = judges.filter(({ trainer, away }) => trainer !== ME && !away).length;
+  const { electorate, heard } = proposal;
+  if (experiment.aggregation === "first") {
+    if (others === 0) return null;
+    if (!experiment.together.parallel) return t("together.firstDecides", { count: others });
+    const mine = judgeOf(judges)?.proposal_id === proposal.id;
+    return mine ? t("together.yours", { count: others }) : null;
+  }
+  const alone = electorate.length === 0 || (electorate.length === 1 && electorate[0] === ME);
+  if (alone && others === 0) return null;
+  const votes = t("together.votesIn", { heard: heard.length, count: electorate.length });
+  if (heard.includes(ME)) {
+    const left = missing(proposal);
+    return left.length ? `${votes} ${t("together.waitingFor", { who: listed(left) })}` : votes;
+  }
+  const mine = asked(proposal, experiment, judges);
+  return `${votes} ${mine ? rule(proposal, experiment) : t("together.notAsked")}`;
+}
+
+/** Whether the lease of what is on the screen is about to end, or has ended. */
+function useLease({ experiment, judges, leaseLeft }: VotesProps): "fresh" | "ends" | "ended" {
+  const [soon, setSoon] = useState(false);
+  const { parallel, lease_seconds: lease } = experiment.together;
+  const me = judgeOf(judges);
+  const watched = parallel && me !== null && me.proposal_id !== null && judges.length > 1;
+  useEffect(() => {
+    if (!watched) return;
+    const check = () => setSoon(leaseLeft() <= Math.min(TOLD, lease / 3));
+    const timer = setInterval(check, CHECK_MS);
+    return () => {
+      clearInterval(timer);
+      setSoon(false);
+    };
+  }, [watched, lease, leaseLeft]);
+  if (parallel && me?.away) return "ended";
+  return watched && soon ? "ends" : "fresh";
+}
+
+export function Votes(props: VotesProps) {
+  const { proposal, experiment, judges } = props;
+  const lease = useLease(props);
+  const open = proposal !== null && isOpen(proposal) && experiment.lifecycle === "running";
+  const votes = open ? votesIn(proposal, experiment, judges) : null;
+  if (experiment.teacher || (votes === null && lease === "fresh")) return null;
+  return (
+    <p className="votes soft" role="status" data-testid="votes" data-lease={lease}>
+      {votes}
+      {lease !== "fresh" && <b>{lease === "ends" ? t("together.leaseEnds") : t("together.leaseEnded")}</b>}
+    </p>
+  );
+}

@@ -1,0 +1,79 @@
+// Several trainers on one experiment: which open proposal this page's trainer is to judge. Pure.
+import { t } from "./i18n";
+import { listed } from "./i18n/numbers";
+import { ME } from "./me";
+import type { RobotState } from "./robots";
+import type { Experiment, Judge, Proposal, Value } from "./wire";
+
+export function judgeOf(judges: Judge[], trainer: string = ME): Judge | null {
+  return judges.find((judge) => judge.trainer === trainer) ?? null;
+}
+
+/** As the service rules: whether this trainer's vote on an open proposal is asked for and would count. */
+export function asked(proposal: Proposal, experiment: Experiment | null, judges: Judge[]): boolean {
+  const { electorate, heard } = proposal;
+  if (heard.includes(ME)) return false;
+  const anybody = experiment?.aggregation === "first" || electorate.length === 0;
+  if (!anybody && !electorate.includes(ME)) return false;
+  const exclusive = experiment?.aggregation === "first" && experiment.together.parallel;
+  return !exclusive || !judges.some((each) => each.proposal_id === proposal.id && each.trainer !== ME);
+}
+
+/** Of one robot's open proposals, in the order they opened, the one that the page shows; null: the one before stays. */
+function pick(
+  open: Proposal[],
+  before: Proposal | null,
+  experiment: Experiment | null,
+  judges: Judge[],
+): Proposal | null {
+  const me = judgeOf(judges);
+  const mine = open.find(({ id }) => id === me?.proposal_id);
+  if (mine) return mine;
+  const stays = open.find(({ id }) => id === before?.id) ?? null;
+  // Another's own proposal must not flash by until this trainer is given the next one.
+  if (me && experiment?.together.parallel) return stays;
+  return open.findLast((proposal) => asked(proposal, experiment, judges)) ?? stays ?? open.at(-1) ?? null;
+}
+
+/** Every robot with the one of its open proposals that this trainer has before them, if any. */
+export function showing(
+  robots: RobotState[],
+  opened: Proposal[],
+  judges: Judge[],
+  experiment: Experiment | null,
+): RobotState[] {
+  return robots.map((before, robot) => {
+    const open = opened.filter((each) => each.robot === robot);
+    const picked = pick(open, before.proposal, experiment, judges);
+    const mine = picked !== null && judgeOf(judges)?.proposal_id === picked.id;
+    const asks = mine ? "first" : picked && asked(picked, experiment, judges) ? "too" : "no";
+    const fresh = picked !== null && picked.id !== before.proposal?.id && !before.execution;
+    return { ...before, proposal: picked ?? before.proposal, asks, live: fresh ? null : before.live };
+  });
+}
+
+/** How many the same answers close an open proposal; null where that isn't a matter of heads alone. */
+export function needed(proposal: Proposal, experiment: Experiment): number | null {
+  const count = proposal.electorate.length;
+  if (experiment.aggregation === "majority") return Math.floor(count / 2) + 1;
+  return experiment.aggregation === "unanimous" ? count : null;
+}
+
+/** Those of the electorate who haven't voted on it. */
+export function missing(proposal: Proposal): string[] {
+  return proposal.electorate.filter((name) => !proposal.heard.includes(name));
+}
+
+/** What to say of a proposal that another one's approval has closed; null: nothing that this trainer doesn't know. */
+export function overtaken(
+  proposal: Proposal,
+  approved: Proposal | null,
+  said: Value | undefined,
+  seen: boolean,
+): string | null {
+  if (proposal.close_reason !== "superseded" || approved?.heard.includes(ME)) return null;
+  const who = approved?.heard.length ? listed(approved.heard) : t("together.somebody");
+  if (said !== undefined && said !== "cant_tell")
+    return t("together.stillTrains", { who, number: proposal.number });
+  return seen ? t("together.overtaken", { who }) : null;
+}
