@@ -28,10 +28,11 @@ class RealSense:
         self._source = source
         self._pipeline = rs.pipeline()
         try:
-            profile = self._pipeline.start(config)
             if not live:
-                # the reader sets the pace, so that none is missed
-                profile.get_device().as_playback().set_real_time(False)
+                # the reader sets the pace, from the very start: what plays at its own is missed
+                device = config.resolve(rs.pipeline_wrapper(self._pipeline)).get_device()
+                device.as_playback().set_real_time(False)
+            profile = self._pipeline.start(config)
             streams = {s.stream_type(): s.as_video_stream_profile() for s in profile.get_streams()}
         except RuntimeError as error:
             raise Unavailable(
