@@ -213,7 +213,7 @@ class Desk:
             keep = self._seating.others_at(feedback.trainer)
             undone = await self._store.undo_feedback(feedback.id, keep=keep, by=by)
             self._crew.forget(feedback.id)
-            self._publish(FeedbackUndone(feedback=undone.feedback))
+            self._publish(FeedbackUndone.of(undone.feedback))
             reopened = undone.reopened
             if reopened.closed_at is None:
                 self._drop_critics(reopened.id)

@@ -102,11 +102,12 @@ def _reading(experiment_id: int, after: int) -> Callable[[Session], tuple[list[d
 
 
 def _rows(click: FeedbackRow, proposal: ProposalRow) -> list[dict[str, Any]]:
-    """The click, then its corrections. What was known of a proposal isn't told while it is open."""
+    """The click, then its corrections. What was known or said of a proposal isn't told while it is open."""
+    told = proposal.closed_at is not None or click.status != "stored"
     known = proposal.known_answer if proposal.closed_at is not None else None
     shared = {
         "feedback_id": click.id,
-        "label_now": answer_of(click.label),
+        "label_now": answer_of(click.label) if told else None,
         "status": click.status,
         "undone_at": None if click.undone_at is None else click.undone_at.isoformat(),
         "estimate_shown": click.estimate_shown,
@@ -134,7 +135,7 @@ def _rows(click: FeedbackRow, proposal: ProposalRow) -> list[dict[str, Any]]:
             "at": at.isoformat(),
             "trainer": by.name,
             "kind": by.kind,
-            "answer": answer_of(value),
+            "answer": answer_of(value) if told else None,
             **shared,
         }
         for act, click_id, at, by, value in acts

@@ -14,6 +14,7 @@ def decide(
     auto_approval: bool,
     gold: bool,
     verdict: Verdict | None,
+    rule_stands: bool,
     lifecycle: Lifecycle,
     halted: bool,
     simulated: bool,
@@ -23,6 +24,7 @@ def decide(
 ) -> GateDecision:
     """The decision for a training proposal; the reason names the first thing that keeps the gate shut.
 
+    rule_stands: the votes still add up to good by the experiment's rule, which may have changed since the verdict.
     by_critic: the verdict is the critic's own. auto_approval: the rule by which it approved still holds.
     gold: it measured its trainers, and its answer was known; the reason doesn't give that away.
     """
@@ -30,6 +32,8 @@ def decide(
         return _shut("the emergency stop is latched")
     if verdict is not Verdict.GOOD:
         return _shut("no verdict" if verdict is None else f"the verdict is {verdict.value}")
+    if not by_critic and not rule_stands:
+        return _shut("its votes don't approve it by the rule of now")
     if by_critic and not simulated:
         return _shut("a real robot moves by a person's verdict only, and this one is the critic's")
     if by_critic and not auto_approval:

@@ -114,11 +114,26 @@ class FeedbackStored(Event):
     undoable: bool
 
 
+class TakenBack(Wire):
+    """A click that was taken back, without what it said: others may still be asked."""
+
+    id: int
+    click_id: str
+    proposal_id: int
+    trainer: str
+    undone_at: datetime | None
+
+
 class FeedbackUndone(Event):
     """A click was taken back; its proposal is open again (a `proposal_opened` follows)."""
 
     type: Literal["feedback_undone"] = "feedback_undone"
-    feedback: Feedback
+    feedback: TakenBack
+
+    @classmethod
+    def of(cls, feedback: Feedback) -> FeedbackUndone:
+        """What may be told of it."""
+        return cls(feedback=TakenBack(**feedback.model_dump(include=set(TakenBack.model_fields))))
 
 
 class FeedbackRelabelled(Event):

@@ -8,9 +8,10 @@ from sqlalchemy import select
 from sqlalchemy.orm import Session
 
 from robot_adapters.base import SafetyViolation
-from server import gate, schemas, schemas_trust, store_trust
+from server import gate, schemas, schemas_trust, store_trust, store_votes
 from server.models import ExecutionRow, ExperimentRow, ProposalRow
 from server.models_incidents import ViolationRow
+from server.store_closing import close
 from server.store_errors import Conflict, NotFound
 from server.store_experiments import journal, load, now
 from server.store_labels import labels_of
@@ -48,6 +49,7 @@ def begin(
         raise Conflict(f"execution {running} still moves the robot", remedy="wait until it has ended")
     experiment = load(session, proposal.experiment_id)
     decision = _decide(
+        session,
         experiment,
         proposal,
         simulated=simulated,
@@ -155,7 +157,7 @@ def _supersede(session: Session, approved: ProposalRow) -> None:
         ProposalRow.purpose == "training",
     )
     for row in session.scalars(others.where(ProposalRow.closed_at.is_(None))):
-        row.closed_at, row.close_reason = now(), schemas.CloseReason.SUPERSEDED.value
+        close(session, row, schemas.CloseReason.SUPERSEDED)
         row.superseded_by = approved.id
         journal(session, row.experiment_id, "proposal_closed", proposal=row.id, reason=row.close_reason)
     late = others.where(
@@ -169,6 +171,7 @@ def _supersede(session: Session, approved: ProposalRow) -> None:
 
 
 def _decide(
+    session: Session,
     experiment: ExperimentRow,
     proposal: ProposalRow,
     *,
@@ -194,6 +197,7 @@ def _decide(
         auto_approval=store_trust.holds(experiment, proposal),
         gold=proposal.known_answer is not None,
         verdict=verdict,
+        rule_stands=verdict is schemas.Verdict.GOOD and store_votes.stands(session, experiment, proposal),
         lifecycle=lifecycle,
         halted=experiment.halted,
         simulated=simulated,

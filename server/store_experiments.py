@@ -12,6 +12,7 @@ from sqlalchemy.orm import Session
 from server import lifecycle, schemas
 from server.models import EpisodeRow, EvaluationRow, EventRow, ExecutionRow, ExperimentRow, ProposalRow
 from server.models_tags import TagRow
+from server.store_closing import close
 from server.store_errors import Conflict, NotFound
 from server.store_values import EpisodeOutcome, Purpose
 
@@ -147,7 +148,7 @@ def close_open(session: Session, experiment_id: int, reason: schemas.CloseReason
     if robot is not None:
         query = query.where(ProposalRow.robot == robot)
     for row in session.scalars(query):
-        row.closed_at, row.close_reason = now(), reason.value
+        close(session, row, reason)
     session.flush()
 
 
@@ -214,7 +215,7 @@ def settle(session: Session, experiment_id: int | None = None) -> set[int]:
         execution.outcome, execution.end_reason, execution.ended_at = "interrupted", "interrupted", now()
         journal(session, execution.experiment_id, "execution_ended", execution=execution.id, outcome="interrupted")
     for proposal in unended(ProposalRow, ProposalRow.closed_at):
-        proposal.close_reason, proposal.closed_at = "interrupted", now()
+        close(session, proposal, schemas.CloseReason.INTERRUPTED)
     for evaluation in unended(EvaluationRow, EvaluationRow.ended_at):
         # what is done is a result; the rest never happened
         evaluation.rollouts, evaluation.ended_at = evaluation.done, now()

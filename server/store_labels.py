@@ -5,14 +5,13 @@ from __future__ import annotations
 from sqlalchemy import ColumnElement, case, exists, or_, select
 from sqlalchemy.orm import Session
 
-from server.models import ExperimentRow, FeedbackRow, ObservationRow, ProposalRow, RelabelRow, TrainerRow
+from server.models import FeedbackRow, ObservationRow, ProposalRow, RelabelRow, TrainerRow
 from server.schemas_labels import RelabelCreate, label_of
+from server.store_closing import count
 from server.store_errors import Conflict, NotFound
 from server.store_experiments import journal, load, now
 from server.store_values import Relabelled, StoredLabel
 from server.store_wire import feedback as feedback_wire
-
-COUNTER_OF = {1: "good", 0: "neutral", -1: "bad", None: "cant_tell"}
 
 
 def value_now() -> ColumnElement[int | None]:
@@ -74,13 +73,6 @@ def relabel(session: Session, feedback_id: int, body: RelabelCreate, *, anybodys
     return Relabelled(
         feedback_wire(row), duplicate=False, before=before, after=value, label=learned[0] if learned else None
     )
-
-
-def count(experiment: ExperimentRow, value: int | None, by: int) -> None:
-    """Count an answer; one that says nothing is no feedback."""
-    experiment.feedback += by if value is not None else 0
-    counter = COUNTER_OF[value]
-    setattr(experiment, counter, getattr(experiment, counter) + by)
 
 
 def trainer(session: Session, name: str, kind: str) -> TrainerRow:

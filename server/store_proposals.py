@@ -10,6 +10,7 @@ from sqlalchemy.orm import Session
 
 from server import lifecycle, schemas, store_gold, store_practice
 from server.models import EvaluationRow, ExecutionRow, ObservationRow, ProposalRow
+from server.store_closing import close
 from server.store_errors import Conflict, NotFound
 from server.store_experiments import begin_episode, journal, load, must_be_running, now, open_episode, state
 from server.store_values import NewProposal, NewView
@@ -103,7 +104,7 @@ def close_proposal(session: Session, proposal_id: int, reason: schemas.CloseReas
     if reason in (schemas.CloseReason.JUDGED, schemas.CloseReason.CANT_TELL, schemas.CloseReason.SUPERSEDED):
         raise Conflict("only feedback judges a proposal", remedy="submit feedback")
     if row.closed_at is None:
-        row.closed_at, row.close_reason = now(), reason.value
+        close(session, row, reason)
         session.flush()
         journal(session, row.experiment_id, "proposal_closed", proposal=row.id, reason=reason.value)
     return row

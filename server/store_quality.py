@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from sqlalchemy import ColumnElement, exists, func, select
+from sqlalchemy import ColumnElement, exists, func, or_, select
 from sqlalchemy.orm import Session
 
 from server import store_gold, store_pages, store_practice
@@ -176,6 +176,8 @@ def _clicks(session: Session, experiment_id: int) -> list[Click]:
             FeedbackRow.experiment_id == experiment_id,
             FeedbackRow.undone_at.is_(None),
             ProposalRow.purpose == "training",
+            # nobody's figures may tell what was said of a proposal on which others are still asked
+            or_(ProposalRow.closed_at.is_not(None), FeedbackRow.status != "stored"),
         )
         .order_by(FeedbackRow.id)
     )

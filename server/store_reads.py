@@ -29,7 +29,7 @@ from server.models_quality import PracticeRow
 from server.schemas_catalogue import TrainerPage
 from server.schemas_listing import Listing
 from server.schemas_trust import AutoApprovalRecord, Calibration
-from server.store_errors import NotFound
+from server.store_errors import Conflict, NotFound
 from server.store_quality import QualityStore
 from server.store_values import StoredLabel, StoredResponse
 
@@ -99,7 +99,30 @@ class Reads:
 
         def find(session: Session) -> schemas.Feedback | None:
             row = store_undo.newest_counted(session, experiment_id, trainer)
+            if row and trainer is None and session.get_one(models.ProposalRow, row.proposal_id).closed_at is None:
+                return None  # what somebody has said of it is theirs until it is closed
             return wire.feedback(row) if row and store_undo.why_not_undoable(session, row) is None else None
+
+        return await self._database.read(find)
+
+    async def told(self, feedback_id: int, asker: str) -> schemas.Feedback:
+        """One click, as far as somebody may know of it: what others say of an open proposal is told at its end.
+
+        Raises:
+            NotFound: there is none. Conflict: it isn't told yet.
+        """
+
+        def find(session: Session) -> schemas.Feedback:
+            row = session.get(models.FeedbackRow, feedback_id)
+            if row is None:
+                raise NotFound("feedback", feedback_id)
+            of = session.get_one(models.ProposalRow, row.proposal_id)
+            if of.closed_at is None and row.status == "stored" and row.trainer.name != asker:
+                raise Conflict(
+                    f"what {row.trainer.name} said of proposal {of.id} is told once it is closed",
+                    remedy="ask again then: others are still to judge it",
+                )
+            return wire.feedback(row)
 
         return await self._database.read(find)
 
@@ -260,4 +283,4 @@ def _told() -> ColumnElement[bool]:
     """Not what somebody has said of a proposal on which others are still asked."""
     row, of = models.FeedbackRow, models.ProposalRow
     asked = exists().where(of.id == row.proposal_id, of.closed_at.is_(None))
-    return or_(row.status != "stored", row.undone_at.is_not(None), ~asked)
+    return or_(row.status != "stored", ~asked)

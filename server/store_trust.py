@@ -127,7 +127,7 @@ def consider(session: Session, proposal_id: int, *, simulated: bool) -> Consider
     if decision is Decision.AUDIT:
         proposal.audit = True
     else:
-        judge(proposal, Verdict.GOOD, VerdictSource.CRITIC)
+        judge(session, proposal, Verdict.GOOD, VerdictSource.CRITIC)
     session.flush()
     journal(
         session,

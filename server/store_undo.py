@@ -8,9 +8,10 @@ from sqlalchemy import or_, select
 from sqlalchemy.orm import Session
 
 from server.models import ExecutionRow, FeedbackRow, ProposalRow, TrainerRow
+from server.schemas import CloseReason
+from server.store_closing import close, count, reopen
 from server.store_errors import Conflict, NotFound
 from server.store_experiments import journal, load, now
-from server.store_labels import count
 from server.store_proposals import load_proposal
 from server.store_values import Undone
 from server.store_votes import verdict_of, votes
@@ -97,14 +98,14 @@ def undo(session: Session, feedback_id: int, *, keep: Collection[int] = (), by: 
     left = {name: value for name, value in votes(session, judged.id).items() if name != row.trainer.name}
     decided = judged.verdict is not None and verdict_of(session, experiment, judged, left) == judged.verdict
     withdrawn = None if decided else _make_room(session, judged, keep)
+    if judged.closed_at is not None and decided:
+        count(experiment, row.label, -1)
+    elif judged.closed_at is not None:
+        reopen(session, judged)
     row.undone_at = now()
-    if not decided:
-        judged.closed_at = judged.close_reason = judged.verdict = judged.gate_allowed = judged.gate_reason = None
-        judged.verdict_source = judged.rule = None
-    count(experiment, row.value, -1)
     experiment.updated_at = now()
     session.flush()
-    journal(session, row.experiment_id, "undone", feedback=row.id, proposal=judged.id, value=row.value)
+    journal(session, row.experiment_id, "undone", feedback=row.id, proposal=judged.id)
     session.refresh(judged, ["votes"])
     return Undone(feedback_wire(row), proposal_wire(judged), proposal_wire(withdrawn) if withdrawn else None)
 
@@ -129,6 +130,6 @@ def _make_room(session: Session, judged: ProposalRow, keep: Collection[int]) -> 
     if older or meanwhile.id in keep or session.scalar(voted.limit(1)) is not None:
         judged.slot = next(slot for slot in range(len(taken) + 1) if slot not in taken)
         return None
-    meanwhile.closed_at, meanwhile.close_reason = now(), "withdrawn"
+    close(session, meanwhile, CloseReason.WITHDRAWN)
     session.flush()  # before the other opens: a slot has at most one open
     return meanwhile

@@ -10,9 +10,10 @@ from sqlalchemy.orm import Session
 from server import aggregation, schemas, schemas_trust, store_experiments, store_practice, store_quality
 from server.models import ExperimentRow, FeedbackRow, ProposalRow, TrainerRow
 from server.schemas_together import Together
+from server.store_closing import close
 from server.store_errors import Conflict
 from server.store_experiments import journal, load, now
-from server.store_labels import count, labels_of, trainer
+from server.store_labels import labels_of, trainer
 from server.store_proposals import load_proposal
 from server.store_values import Concluded, Submission
 from server.store_wire import feedback as feedback_wire
@@ -58,7 +59,6 @@ def submit(
     if late:
         experiment.late += 1
         return Submission(_late(row, late_because), duplicate=False)
-    count(experiment, click.label, 1)
     _conclude(session, experiment, proposal)
     told = _told(session, proposal)
     if proposal.closed_at is None:
@@ -75,7 +75,7 @@ def approve_evaluation(session: Session, proposal_id: int) -> ProposalRow:
     _store(
         session, proposal, trainer(session, "evaluation", "evaluation"), f"evaluation-{proposal_id}", 1, status="stored"
     )
-    judge(proposal, schemas.Verdict.GOOD, schemas_trust.VerdictSource.EVALUATION)
+    judge(session, proposal, schemas.Verdict.GOOD, schemas_trust.VerdictSource.EVALUATION)
     session.flush()
     return proposal
 
@@ -102,6 +102,11 @@ def verdict_of(
         weights=store_quality.weights(session, experiment.id) if rule is schemas.Aggregation.WEIGHTED else None,
         alone=Together.model_validate(experiment.together).weighted_approves,
     )
+
+
+def stands(session: Session, experiment: ExperimentRow, proposal: ProposalRow) -> bool:
+    """Whether the votes on a proposal that trainers approved still add up to good, by the rule of now."""
+    return verdict_of(session, experiment, proposal, votes(session, proposal.id)) is schemas.Verdict.GOOD
 
 
 def leave(session: Session, experiment_id: int, names: Collection[str]) -> list[Concluded]:
@@ -160,10 +165,12 @@ def update(
     return row, concluded
 
 
-def judge(proposal: ProposalRow, verdict: schemas.Verdict, source: schemas_trust.VerdictSource) -> None:
+def judge(
+    session: Session, proposal: ProposalRow, verdict: schemas.Verdict, source: schemas_trust.VerdictSource
+) -> None:
     """Close it with a verdict."""
-    proposal.verdict, proposal.close_reason, proposal.closed_at = verdict.value, "judged", now()
-    proposal.verdict_source = source.value
+    proposal.verdict, proposal.verdict_source = verdict.value, source.value
+    close(session, proposal, schemas.CloseReason.JUDGED)
 
 
 def _open(session: Session, experiment_id: int) -> Sequence[ProposalRow]:
@@ -184,10 +191,10 @@ def _conclude(session: Session, experiment: ExperimentRow, proposal: ProposalRow
     cast = votes(session, proposal.id)
     verdict = verdict_of(session, experiment, proposal, cast)
     if verdict is not None:
-        judge(proposal, verdict, schemas_trust.VerdictSource.TRAINERS)
+        judge(session, proposal, verdict, schemas_trust.VerdictSource.TRAINERS)
         proposal.rule = experiment.aggregation
     elif aggregation.nobody_could_tell(cast, proposal.electorate):
-        proposal.close_reason, proposal.closed_at = schemas.CloseReason.CANT_TELL.value, now()
+        close(session, proposal, schemas.CloseReason.CANT_TELL)
 
 
 def _concluded(session: Session, proposal: ProposalRow) -> Concluded:

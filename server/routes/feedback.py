@@ -18,7 +18,10 @@ CLICK = {"good": {"value": {"click_id": "9f1c2a77-3b1e", "value": 1}}}
 CORRECTION = {"bad after all": {"value": {"click_id": "77ab3f02-9c1d", "value": -1}}}
 
 
-Asker = Annotated[str | None, Query(max_length=64, description="who asks: nobody takes back another's click")]
+Asker = Annotated[
+    str | None,
+    Query(max_length=64, description="who asks, where nobody signs in: another's click is nobody's to take or to see"),
+]
 
 
 @router.post(
@@ -59,10 +62,10 @@ async def list_feedback(service: Running, experiment_id: Id, cursor: Cursor = No
     return await service.store.feedback_of_experiment(experiment_id, cursor, limit, told=True)
 
 
-@router.get("/feedback/{feedback_id}", responses=errors(404, 422))
-async def get_feedback(service: Running, feedback_id: Id) -> Feedback:
-    """One click as it is stored."""
-    return await service.store.feedback(feedback_id)
+@router.get("/feedback/{feedback_id}", responses=errors(404, 409, 422))
+async def get_feedback(service: Running, who: Who, feedback_id: Id, trainer: Asker = None) -> Feedback:
+    """One click as it is stored; somebody else's on an open proposal only once that is closed."""
+    return await service.store.told(feedback_id, (who.called(trainer) if trainer else who).name)
 
 
 @router.post(

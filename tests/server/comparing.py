@@ -46,13 +46,15 @@ async def _nothing_moves_without_a_verdict_for_exactly_this_and_only_once(store:
     for execution in executions:
         proposal = proposals[execution.proposal_id]
         assert proposal.verdict == "good"
+        assert proposal.rule in ("first", "majority", "unanimous")
         assert (proposal.skill, proposal.parameters) == (execution.skill, execution.parameters)
 
 
 async def _states_and_counters_are_those_of_the_rows(store: Store, model: Experiment) -> None:
     stored = await store.experiment(model.id)
     assert (stored.lifecycle, stored.halted) == (model.lifecycle, model.halted)
-    counted = [c.value for c in model.clicks if c.counted]
+    # not while others are still asked: the counters must not tell what somebody has said
+    counted = [c.value for c in model.clicks if c.counted and not c.proposal.open]
     counters = stored.counters
     assert (counters.feedback, counters.good, counters.neutral, counters.bad) == (
         len(counted),

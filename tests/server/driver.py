@@ -206,6 +206,7 @@ class Driver:
         may = (
             asked
             and proposal.verdict == "good"
+            and verdict_of(model.rule, model.votes(proposal), proposal.electorate) == "good"
             and model.mode == "execute_approved"
             and model.at_work
             and current

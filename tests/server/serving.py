@@ -52,7 +52,7 @@ class Serving:
         assert answer.status_code == 201, answer.text
         return int(answer.json()["id"])
 
-    async def proposal(self, experiment_id: int) -> Proposal:
+    async def proposal(self, experiment_id: int, electorate: tuple[str, ...] = ("local",)) -> Proposal:
         """A proposal opened as the runner does, without its processes; the experiment is set running first."""
         if (await self.service.store.experiment(experiment_id)).lifecycle != "running":
             await self.service.store.transition(experiment_id, "start")
@@ -70,6 +70,7 @@ class Serving:
             skill_probabilities={"pick": 0.75, "place": 0.25},
             policy_version=0,
             subgoal="pick up the red block",
+            electorate=electorate,
             views=[NewView("left", 640, 480, image, Overlay(dot=(320.0, 240.0)))],
         )
         return await self.service.store.open_proposal(new)

@@ -14,14 +14,14 @@ VERDICTS: tuple[Verdict | None, ...] = (*Verdict, None)
 def test_opens_for_exactly_one_kind_of_situation() -> None:
     opened = 0
     # in two products: mypy knows the types of a product of few only
-    for (mode, verdict, lifecycle, (critic, gold), rule), (
+    for (mode, verdict, lifecycle, (critic, gold), (rule, stands)), (
         halted,
         simulated,
         operator,
         inside,
         current,
     ) in itertools.product(
-        itertools.product(Mode, VERDICTS, Lifecycle, itertools.product(BOTH, BOTH), BOTH),
+        itertools.product(Mode, VERDICTS, Lifecycle, itertools.product(BOTH, BOTH), itertools.product(BOTH, BOTH)),
         itertools.product(BOTH, BOTH, BOTH, BOTH, BOTH),
     ):
         decision = gate.decide(
@@ -30,6 +30,7 @@ def test_opens_for_exactly_one_kind_of_situation() -> None:
             auto_approval=rule,
             gold=gold,
             verdict=verdict,
+            rule_stands=stands,
             lifecycle=lifecycle,
             halted=halted,
             simulated=simulated,
@@ -45,7 +46,7 @@ def test_opens_for_exactly_one_kind_of_situation() -> None:
             and (simulated or operator)
             and inside
             and current
-            and (not critic or (simulated and rule))
+            and ((simulated and rule) if critic else stands)
             and not gold
         )
         assert decision.allowed == expected
@@ -53,8 +54,8 @@ def test_opens_for_exactly_one_kind_of_situation() -> None:
         assert (decision.reason == "open") == expected
         opened += expected
     # with a person's verdict a simulator with and without an operator and a real robot with one, rule or not; with the
-    # critic's a simulator, where there is a rule
-    assert opened == 3 * 2 + 2
+    # critic's a simulator, where there is a rule, whatever votes add up to
+    assert opened == 3 * 2 + 2 * 2
 
 
 def test_an_evaluation_moves_simulators_only_and_never_beside_training() -> None:
@@ -88,6 +89,7 @@ def test_the_reason_names_what_is_in_the_way() -> None:
         auto_approval=False,
         gold=False,
         verdict=Verdict.GOOD,
+        rule_stands=True,
         lifecycle=Lifecycle.RUNNING,
         halted=False,
         simulated=True,

@@ -18,11 +18,12 @@ from tests.server.driver import TRAINERS, Driver
 from tests.server.model import AFTER, Experiment, Proposal
 
 EXPERIMENTS = st.sampled_from([0, 1])
-TOGETHER = ("parallel", "overtaken", "left", "ruled", "in vain", "beside")
+TOGETHER = ("parallel", "overtaken", "left", "ruled", "overruled", "in vain", "beside")
 """parallel: three are open on one observation. overtaken: two of them are approved, and the robot moves by the first.
 
 left: a majority was split, and the third trainer has gone. ruled: a click waited for others, and the rule is `first`
-now. in vain: who was outvoted takes that back. beside: a click is taken back while the next proposal has a vote.
+now. overruled: a majority approved it, and before the gate was asked all have to. in vain: who was outvoted takes that
+back. beside: a click is taken back while the next proposal has a vote.
 """
 ALONE = ("ready", "open", "split", "again", "refused", "followed", "back", "approved", "halted", "moving", "dead")
 """split: one good, one bad. again: refused, and a click of that repeated. followed: refused, and the next one open on
@@ -118,6 +119,10 @@ class Machine(Driver, RuleBasedStateMachine):
         elif situation == "ruled":
             self._votes(proposal, 1)
             self._rule(model, "first")
+        elif situation == "overruled":
+            self._votes(proposal, 1, 1)
+            self._rule(model, "unanimous")
+            self._begin(proposal, current=True, inside=True)
         elif situation == "in vain":
             self._votes(proposal, -1, 1, 1)
             self._undo(model.votes(proposal)[0])
@@ -195,5 +200,6 @@ def test_no_sequence_of_clicks_verbs_and_crashes_breaks_an_invariant() -> None:
         "no verdict",
         "the verdict is bad",
         "it was executed already",
+        "its votes don't approve it by the rule of now",
     )
     assert all(Machine.seen[what] >= 2 for what in (*happened, *together, "undone in vain", *shut)), Machine.seen

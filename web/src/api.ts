@@ -588,7 +588,7 @@ export interface paths {
         };
         /**
          * Get Feedback
-         * @description One click as it is stored.
+         * @description One click as it is stored; somebody else's on an open proposal only once that is closed.
          */
         get: operations["get_feedback"];
         put?: never;
@@ -3144,7 +3144,7 @@ export interface components {
              * @enum {string}
              */
             type: "feedback_undone";
-            feedback: components["schemas"]["Feedback"];
+            feedback: components["schemas"]["TakenBack"];
         };
         /**
          * FieldProblem
@@ -4682,6 +4682,22 @@ export interface components {
             tag: string;
             /** Experiments */
             experiments: number;
+        };
+        /**
+         * TakenBack
+         * @description A click that was taken back, without what it said: others may still be asked.
+         */
+        TakenBack: {
+            /** Id */
+            id: number;
+            /** Click Id */
+            click_id: string;
+            /** Proposal Id */
+            proposal_id: number;
+            /** Trainer */
+            trainer: string;
+            /** Undone At */
+            undone_at: string | null;
         };
         /**
          * TaskInfo
@@ -7701,7 +7717,10 @@ export interface operations {
     };
     get_feedback: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description who asks, where nobody signs in: another's click is nobody's to take or to see */
+                trainer?: string | null;
+            };
             header?: never;
             path: {
                 feedback_id: number;
@@ -7746,6 +7765,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description The state of things doesn't allow it; `current` and `allowed` say what does */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description A field is wrong; `fields` names it */
             422: {
                 headers: {
@@ -7778,7 +7806,7 @@ export interface operations {
     undo_feedback: {
         parameters: {
             query?: {
-                /** @description who asks: nobody takes back another's click */
+                /** @description who asks, where nobody signs in: another's click is nobody's to take or to see */
                 trainer?: string | null;
             };
             header?: never;

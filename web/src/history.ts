@@ -76,7 +76,9 @@ export function remember(history: History, event: StreamEvent, me: string): Hist
     case "acknowledged":
       return event.feedback ? withOwn(history, event.feedback) : history;
     case "feedback_undone":
-      return event.feedback.trainer === me ? withOwn(history, event.feedback) : history;
+      return event.feedback.trainer === me
+        ? with_(history, event.feedback.proposal_id, { own: null })
+        : history;
     case "execution_started":
     case "execution_ended":
       return withExecution(history, event.execution);

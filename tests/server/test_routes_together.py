@@ -1,0 +1,58 @@
+"""Judging together over HTTP: the rule, live, and that nobody learns what others say of what is still to judge."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from tests.server.serving import EXPERIMENT, serving
+from tests.server.test_errors import check_problem
+
+
+async def test_the_rule_and_who_judges_what_are_set_at_the_start_and_live(tmp_path: Path) -> None:
+    async with serving(tmp_path) as live:
+        for rule in ("first", "majority", "unanimous", "weighted"):
+            body = EXPERIMENT | {"aggregation": rule, "together": {"lease_seconds": 5}}
+            made = (await live.http.post("/api/v1/experiments", json=body)).json()
+            assert (made["aggregation"], made["together"]["lease_seconds"]) == (rule, 5)
+            assert made["together"]["weighted_approves"] is False
+        address = f"/api/v1/experiments/{made['id']}"
+        change: dict[str, Any] = {"aggregation": "unanimous", "together": {"parallel": True}}
+        assert (await live.http.patch(address, json=change)).status_code == 200
+        now = (await live.http.get(address)).json()
+        assert (now["aggregation"], now["together"]["parallel"], now["together"]["lease_seconds"]) == (
+            "unanimous",
+            True,
+            5,
+        )
+        for wrong, field in (({"lease_seconds": 0}, "lease_seconds"), ({"parallel": "yes"}, "parallel")):
+            told = check_problem(await live.http.patch(address, json={"together": wrong}), 422)
+            assert field in told.fields[0].field
+        assert (await live.http.get(address)).json()["together"] == now["together"]
+
+
+async def test_nobody_is_told_a_vote_before_the_proposal_is_closed(tmp_path: Path) -> None:
+    async with serving(tmp_path) as live:
+        experiment = await live.experiment(aggregation="majority")
+        base, asked = f"/api/v1/experiments/{experiment}", ("ann", "bob", "cyd")
+        proposal = await live.proposal(experiment, asked)
+        address = f"/api/v1/proposals/{proposal.id}/feedback"
+        hers = (await live.http.post(address, json=live.click(1, trainer=asked[0]))).json()
+        mine = f"/api/v1/feedback/{hers['id']}"
+        assert (await live.http.get(mine, params={"trainer": asked[0]})).json()["value"] == 1
+        told = check_problem(await live.http.get(mine, params={"trainer": asked[1]}), 409)
+        assert "once it is closed" in told.detail
+        counters = (await live.http.get(base)).json()["counters"]
+        assert (counters["feedback"], counters["good"]) == (0, 0)
+        assert (await live.http.get(address)).json()["items"] == []
+        table = await live.http.get(f"{base}/exports/feedback", params={"format": "jsonl"})
+        assert '"answer": null' in table.text
+        taken = (await live.http.delete(mine, params={"trainer": asked[0]})).json()
+        assert taken["undone_at"] is not None
+        assert check_problem(await live.http.get(mine, params={"trainer": asked[1]}), 409)
+        # once it is closed all is told, and counted
+        for name in asked[:2]:
+            assert (await live.http.post(address, json=live.click(-1, trainer=name))).status_code == 201
+        assert (await live.http.get(mine, params={"trainer": asked[1]})).json()["value"] == 1
+        counters = (await live.http.get(base)).json()["counters"]
+        assert (counters["feedback"], counters["good"], counters["bad"]) == (2, 0, 2)
