@@ -139,6 +139,7 @@ class ProposalRow(Base):
         CheckConstraint("(gate_allowed IS NULL) = (gate_reason IS NULL)", name="gate"),
         one_of("verdict_source", "trainers", "critic", "evaluation"),
         _one_a_robot("uq_proposal_open", "closed_at IS NULL", "slot"),
+        Index("ix_proposal_experiment_id_id", "experiment_id", "id"),
     )
 
     id: Mapped[int] = mapped_column(primary_key=True)

@@ -28,9 +28,9 @@ def value_now() -> ColumnElement[int | None]:
     return case((corrected, newest), else_=FeedbackRow.value)
 
 
-def labels(session: Session, experiment_id: int, after_id: int = 0) -> list[StoredLabel]:
-    """What the learner trains from, by id."""
-    return _labels(session, FeedbackRow.experiment_id == experiment_id, FeedbackRow.id > after_id)
+def labels(session: Session, experiment_id: int, after_id: int = 0, limit: int | None = None) -> list[StoredLabel]:
+    """What the learner trains from, by id; no more than `limit`."""
+    return _labels(session, FeedbackRow.experiment_id == experiment_id, FeedbackRow.id > after_id, limit=limit)
 
 
 def labels_of(session: Session, proposal_id: int) -> list[StoredLabel]:
@@ -101,15 +101,17 @@ def _must_be_correctable(row: FeedbackRow, proposal: ProposalRow, by: str, *, an
         )
 
 
-def _labels(session: Session, *where: ColumnElement[bool]) -> list[StoredLabel]:
+def _labels(session: Session, *where: ColumnElement[bool], limit: int | None = None) -> list[StoredLabel]:
+    value = value_now()
     query = (
-        select(FeedbackRow.id, ObservationRow.state, ProposalRow.skill, ProposalRow.parameters, value_now())
+        select(FeedbackRow.id, ObservationRow.state, ProposalRow.skill, ProposalRow.parameters, value)
         .join(ProposalRow, ProposalRow.id == FeedbackRow.proposal_id)
         .join(ObservationRow, ObservationRow.id == ProposalRow.observation_id)
         .where(
             *where,
             FeedbackRow.status == "stored",
             FeedbackRow.undone_at.is_(None),
+            value.is_not(None),
             ProposalRow.purpose == "training",
             ProposalRow.known_answer.is_(None),
             # a time-out trains nothing, whoever voted before it; where nobody could tell, a correction does
@@ -117,9 +119,9 @@ def _labels(session: Session, *where: ColumnElement[bool]) -> list[StoredLabel]:
             or_(ProposalRow.verdict.is_not(None), ProposalRow.close_reason.in_(("cant_tell", "superseded"))),
         )
         .order_by(FeedbackRow.id)
+        .limit(limit)
     )
     return [
-        StoredLabel(feedback_id, tuple(state), skill, tuple(parameters), value)
-        for feedback_id, state, skill, parameters, value in session.execute(query)
-        if value is not None
+        StoredLabel(feedback_id, tuple(state), skill, tuple(parameters), label)
+        for feedback_id, state, skill, parameters, label in session.execute(query)
     ]

@@ -151,9 +151,9 @@ class Reads:
         items, after = await self._page(query, models.FeedbackRow.id, wire.feedback, cursor, limit, of=experiment_id)
         return schemas.FeedbackPage(items=items, next_cursor=after)
 
-    async def labels(self, experiment_id: int, after_id: int = 0) -> list[StoredLabel]:
-        """What the learner trains from, ascending by feedback id."""
-        return await self._database.read(lambda s: store_labels.labels(s, experiment_id, after_id))
+    async def labels(self, experiment_id: int, after_id: int = 0, limit: int | None = None) -> list[StoredLabel]:
+        """What the learner trains from, ascending by feedback id: the first `limit` after that one."""
+        return await self._database.read(lambda s: store_labels.labels(s, experiment_id, after_id, limit))
 
     async def calibration(self, experiment_id: int, newest: int) -> Calibration:
         """The critic's reliability curve over its newest judged proposals."""
