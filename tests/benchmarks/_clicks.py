@@ -73,7 +73,7 @@ def disagreeing(share: float) -> Judge:
         if dice.random() < 0.5:
             return value
         points = task.keypoints(state, call.skill)
-        position = np.array(call.parameters[:3])
+        position = np.resize(np.array([*call.parameters[:3], 0.0, 0.0, 0.0]), 3)  # a skill may act nowhere
         nearest = points[np.argmin(np.linalg.norm(points - position, axis=1))] if len(points) else np.zeros(3)
         place = [int(each) for each in np.floor((position - nearest) / PLACE)]
         mind = zlib.crc32(repr((call.skill, task.subgoal(state), place)).encode()) / 2**32
