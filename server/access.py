@@ -8,7 +8,7 @@ from __future__ import annotations
 from starlette.requests import HTTPConnection
 
 from server.errors import ServiceError
-from server.principal import Principal
+from server.principal import Principal, acting
 from server.roles import NEEDS, too_little
 from server.service import Service
 
@@ -26,6 +26,8 @@ async def authorised(connection: HTTPConnection) -> None:
     name = connection.scope["route"].name
     who = await service.doors.who(connection)
     connection.state.principal = who
+    if who is not None:
+        acting.set(who)
     need = NEEDS.get(name)
     if need is None:
         raise ServiceError(403, f"nobody may ask for {name}", remedy="declare its role in server/roles.py")

@@ -8,7 +8,7 @@ from collections.abc import AsyncIterator
 from importlib.metadata import version
 from pathlib import Path
 
-from fastapi import Depends, FastAPI, Response
+from fastapi import Depends, FastAPI, Request, Response
 from fastapi.responses import FileResponse, HTMLResponse, JSONResponse
 from fastapi_offline import FastAPIOffline
 from starlette.convertors import Convertor, register_url_convertor
@@ -24,6 +24,7 @@ from server.routes import (
     feedback,
     history,
     incidents,
+    people,
     practice,
     proposals,
     quality,
@@ -69,6 +70,7 @@ def create_app(settings: Settings | None = None, service: Service | None = None)
         version=version("seed-robot"),
         summary="Train a robot arm by judging the skills it proposes.",
         lifespan=lifespan,
+        root_path=settings.root_path,
         dependencies=[Depends(authorised)],
         generate_unique_id_function=lambda route: route.name,
         separate_input_output_schemas=False,
@@ -82,6 +84,7 @@ def create_app(settings: Settings | None = None, service: Service | None = None)
         feedback,
         history,
         incidents,
+        people,
         records,
         results,
         trust,
@@ -107,10 +110,13 @@ def _add_probes(app: FastAPI) -> None:
         return Health(boot_id=app.state.boot_id)
 
     @app.get("/ready", tags=["probes"], responses={503: {"model": Readiness, "description": "Not ready"}})
-    async def ready() -> Response:
-        """Whether the database answers and the workers that should live do."""
+    async def ready(request: Request) -> Response:
+        """Whether the database answers and the workers that should live do; why not is told to those who are in."""
         running: Service = app.state.service
         readiness = await running.readiness()
+        if request.state.principal is None:
+            checks = {name: told if told == "ok" else "sign in to see why" for name, told in readiness.checks.items()}
+            readiness = readiness.model_copy(update={"checks": checks})
         return JSONResponse(readiness.model_dump(mode="json"), 200 if readiness.ready else 503)
 
 

@@ -1,4 +1,4 @@
-"""The command line: `seed serve`, `train`, `evaluate`, `study`, `check`, `openapi`.
+"""The command line: `seed serve`, `train`, `evaluate`, `study`, `check`, `owner-token`, `openapi`.
 
 Exit codes: 0 done; 1 `check` has findings; 2 wrong arguments, or a machine that isn't set up; 3 robot, simulator or
 learner failed or can't be had; 130 interrupted.
@@ -25,6 +25,7 @@ from server.errors import ServiceError
 from server.origin import check_bind
 from server.schemas import EvaluationCreate, ExperimentCreate
 from server.settings import Settings
+from server.store import Store
 from server.store_errors import StoreError
 
 USAGE, FAILED, INTERRUPTED = 2, 3, 130
@@ -147,6 +148,25 @@ def check(
     if findings:
         raise typer.Exit(1)
     typer.echo(f"{name}: nothing found")
+
+
+@app.command()
+def owner_token(data_dir: DataDir = None) -> None:
+    """Print a new token of the owner, for a service with a login; the one of before ends, with the owner's sessions."""
+    settings = _settings(data_dir=data_dir)
+    _log("warning")
+
+    async def make() -> str:
+        store = await Store.open(settings.database_url, settings.data_dir)
+        try:
+            return await store.people.owner_token()
+        finally:
+            await store.close()
+
+    try:
+        typer.echo(asyncio.run(make()))
+    except StoreError as error:
+        _give_up(str(error), error.remedy, USAGE)
 
 
 @app.command()

@@ -32,7 +32,12 @@ async def run_server(settings: Settings, *, announce: Callable[[str], None]) -> 
     with listener:
         async with opened(settings) as service:
             server = Server(config(create_app(settings, service), settings))
-            server.on_ready = lambda: announce(f"SEED is ready: {_url(settings.host, listener.getsockname()[1])}")
+            address = _url(settings.host, listener.getsockname()[1]) + settings.root_path
+            server.on_ready = lambda: announce(f"SEED is ready: {address}")
+            if settings.login and not await service.store.people.has_owner():
+                announce(
+                    f"The owner's way in, told this once: {address}/join#{await service.store.people.owner_token()}"
+                )
             await server.serve(sockets=[listener])
 
 
@@ -50,6 +55,7 @@ def config(app: object, settings: Settings) -> uvicorn.Config:
         ws_ping_timeout=settings.ping_interval,
         timeout_graceful_shutdown=GRACE,
         server_header=False,
+        forwarded_allow_ips=settings.trusted_proxies,
     )
 
 

@@ -7,6 +7,8 @@ import contextlib
 from collections.abc import Callable, Coroutine
 from typing import Any
 
+from server.principal import SERVICE, acting
+
 Work = Callable[[asyncio.Event], Coroutine[Any, Any, None]]
 """Takes the event that tells it to end at its next step. It deals with its own errors."""
 
@@ -31,6 +33,8 @@ class Course:
         leave = self._leave
 
         async def follow() -> None:
+            # whoever started it is not who decides what comes of it
+            acting.set(SERVICE)
             if previous is not None:
                 await asyncio.wait({previous})
             await work(leave)

@@ -17,6 +17,7 @@ from sqlalchemy import URL, Connection, Engine, create_engine, event, make_url
 from sqlalchemy.exc import DBAPIError, IntegrityError
 from sqlalchemy.orm import Session
 
+from server.principal import Principal, acting
 from server.store_errors import Conflict, Full, ReadOnly, StoreError
 
 T = TypeVar("T")
@@ -95,6 +96,8 @@ class _Job:
     """One write. It may run in a group with others, but fails alone."""
 
     run: Callable[[Session], Any]
+    who: Principal
+    """In whose name; `session.info["who"]` while it runs."""
     future: Future[Any] = field(default_factory=Future)
     result: Any = None
     error: BaseException | None = None
@@ -121,7 +124,7 @@ class Database:
         """Run in a write transaction; returns after the commit. `run` may raise to undo its own part only."""
         if self._closed:
             raise StoreError("the store is closed", remedy="start the service again")
-        job = _Job(run)
+        job = _Job(run, acting.get())
         self._jobs.put(job)
         result: T = await asyncio.wrap_future(job.future)
         return result
@@ -183,7 +186,9 @@ class Database:
                 job.future.set_result(job.result)
 
     def _attempt(self, connection: Connection, job: _Job) -> None:
-        session = Session(connection, join_transaction_mode="create_savepoint", expire_on_commit=False)
+        session = Session(
+            connection, join_transaction_mode="create_savepoint", expire_on_commit=False, info={"who": job.who}
+        )
         try:
             job.result = job.run(session)
             session.commit()  # of the savepoint

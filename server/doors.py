@@ -1,15 +1,113 @@
-"""Whose request this is. Without a login, on loopback, everyone is the local owner."""
+"""Whose request this is. Without a login everyone is the local owner; with one, a token says who it is."""
 
 from __future__ import annotations
 
-from starlette.requests import HTTPConnection
+from datetime import timedelta
 
+from starlette.requests import HTTPConnection
+from starlette.responses import Response
+
+from server.errors import ServiceError
 from server.principal import LOCAL, Principal
+from server.rates import Rates
+from server.schemas_people import SignedIn, SignIn
+from server.settings import Settings
+from server.store import Store
+from server.store_people import WrongToken
+
+COOKIE = "seed_session"
+"""Of the page. HttpOnly: no script reads it; SameSite: no other site sends it."""
+SAFE_METHODS = {"GET", "HEAD", "OPTIONS"}
 
 
 class Doors:
-    """Finds out who stands before a request."""
+    """Finds out who stands before a request, and lets people in and out."""
 
-    async def who(self, connection: HTTPConnection) -> Principal | None:  # noqa: ARG002 - a login will read it
-        """Who it is; None: nobody that is known here."""
-        return LOCAL
+    def __init__(self, settings: Settings, store: Store) -> None:
+        self.login = settings.login
+        self._people = store.people
+        self._rates = Rates(settings.rate_limit)
+        self._lasts = timedelta(hours=settings.session_hours)
+        self._path = settings.root_path or "/"
+
+    async def who(self, connection: HTTPConnection) -> Principal | None:
+        """Who it is; None: nobody that is known here.
+
+        Raises:
+            ServiceError: 429, they ask too often; 403, a page's cookie came without the page's origin.
+        """
+        if not self.login:
+            return LOCAL
+        address = _address(connection)
+        self._rates.ask("address", address)
+        scheme, _, bearer = connection.headers.get("authorization", "").partition(" ")
+        token = bearer.strip() if scheme.lower() == "bearer" else ""
+        if not token:
+            token = connection.cookies.get(COOKIE, "")
+            if token:
+                _must_be_of_a_page(connection)
+        if not token:
+            return None
+        self._rates.must_be_patient(address)
+        who = await self._people.who(token[:200])
+        if who is None:
+            self._rates.failed(address)
+            return None
+        self._rates.ask("person", str(who.person_id))
+        return who
+
+    async def sign_in(self, connection: HTTPConnection, body: SignIn, response: Response) -> SignedIn:
+        """Let somebody in; the page gets its cookie, a program its token.
+
+        Raises:
+            ServiceError: 409, there is no login here; 401, the token opens nothing; 429. Conflict: the name is taken.
+        """
+        if not self.login:
+            raise ServiceError(
+                409, "nobody has to sign in here", remedy="start the service with SEED_LOGIN=1 to ask for it"
+            )
+        address = _address(connection)
+        self._rates.must_be_patient(address)
+        try:
+            person, token = await self._people.sign_in(body, lasts=self._lasts)
+        except WrongToken as error:
+            self._rates.failed(address)
+            raise ServiceError(401, str(error), remedy=error.remedy) from error
+        if not body.bearer:
+            response.set_cookie(
+                COOKIE,
+                token,
+                max_age=round(self._lasts.total_seconds()),
+                path=self._path,
+                secure=connection.url.scheme in ("https", "wss"),
+                httponly=True,
+                samesite="strict",
+            )
+        return SignedIn(
+            login=True,
+            name=person.name,
+            role=person.role,
+            experiment_id=person.experiment_id,
+            access_until=person.access_until,
+            token=token if body.bearer else None,
+        )
+
+    def forget(self, response: Response) -> None:
+        """Take the page's cookie away."""
+        response.delete_cookie(COOKIE, path=self._path, httponly=True, samesite="strict")
+
+
+def _must_be_of_a_page(connection: HTTPConnection) -> None:
+    """A browser names the origin of whatever may change something; that it is ours was checked before (`origin`)."""
+    unsafe = connection.scope["type"] == "websocket" or connection.scope["method"] not in SAFE_METHODS
+    if unsafe and "origin" not in connection.headers:
+        raise ServiceError(
+            403,
+            "a cookie counts for pages only, and a page names its origin",
+            remedy="send Authorization: Bearer with a token instead",
+            slug="foreign-origin",
+        )
+
+
+def _address(connection: HTTPConnection) -> str:
+    return connection.client.host if connection.client is not None else "local"

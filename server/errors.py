@@ -32,6 +32,7 @@ SLUGS = {
     409: "conflict",
     413: "too-large",
     422: "invalid",
+    429: "too-often",
     500: "internal",
     503: "unavailable",
 }

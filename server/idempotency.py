@@ -13,6 +13,7 @@ from fastapi import Header, Request, Response
 from fastapi.responses import JSONResponse
 from pydantic import BaseModel
 
+from server.principal import Principal
 from server.store import Receipt, Store
 
 IdempotencyKey = Annotated[
@@ -42,7 +43,10 @@ async def once(
     """
     if key is None:
         return JSONResponse((await act(None)).model_dump(mode="json"), status)
-    route = f"{request.method} {request.url.path}"
+    who: Principal | None = request.state.principal
+    # the same key of somebody else is another key
+    mine = "" if who is None or who.person_id is None else f"person {who.person_id}: "
+    route = f"{mine}{request.method} {request.url.path}"
     lock = _locks.setdefault(f"{route} {key}", asyncio.Lock())
     async with lock:  # the same key twice at the same moment: the second waits for the first
         digest = hashlib.sha256(_canonical(await request.body())).hexdigest()

@@ -21,6 +21,7 @@ TAGS = [
     {"name": "trust", "description": "How far the critic may be trusted"},
     {"name": "practice", "description": "Proposals with known answers, corrected at once"},
     {"name": "quality", "description": "How far labels may be trusted: figures, agreement, known answers, exports"},
+    {"name": "people", "description": "Coming in and going out, who is there, and who decided what"},
     {"name": "studies", "description": "Algorithms x tasks x seeds, run by `seed study`"},
     {"name": "stream", "description": "Messages of the WebSocket /api/v1/experiments/{id}/stream"},
     {"name": "probes", "description": "For whoever runs the service"},

@@ -1,7 +1,7 @@
 """Who may talk to the service: Host and Origin checks, body limit and protective headers, as one ASGI middleware.
 
-There is no login yet, so a browser's same-origin rule is the lock. Two ways around it are closed here: a foreign name
-that resolves to this machine (DNS rebinding: Host check) and a foreign page that sends requests (Origin check).
+On loopback nobody signs in, so a browser's same-origin rule is the lock. Two ways around it are closed here: a foreign
+name that resolves to this machine (DNS rebinding: Host check) and a foreign page that sends requests (Origin check).
 """
 
 from __future__ import annotations
@@ -24,10 +24,19 @@ DRAIN_LIMIT = 32 * 1024 * 1024
 PROTECTIVE_HEADERS = (
     (b"x-content-type-options", b"nosniff"),
     (b"x-frame-options", b"DENY"),  # a page that frames ours could steal clicks, and clicks move a robot
-    (b"content-security-policy", b"frame-ancestors 'none'"),
     (b"cross-origin-resource-policy", b"same-origin"),
     (b"referrer-policy", b"no-referrer"),
 )
+
+
+CONTENT_POLICY = (
+    "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
+    "connect-src 'self'; font-src 'self'; media-src 'self' blob:; worker-src 'self' blob:; manifest-src 'self'; "
+    "base-uri 'self'; form-action 'self'; frame-ancestors 'none'"
+)
+"""Styles may be inline: charts and the 3-D view place things so. Scripts may not, and nothing comes from elsewhere."""
+SWAGGER_POLICY = CONTENT_POLICY.replace("script-src 'self'", "script-src 'self' 'unsafe-inline'")
+"""Swagger's page starts itself by an inline script; it shows nothing that anybody has written."""
 
 
 class RemoteNotAllowed(ServiceError):
@@ -40,13 +49,14 @@ def check_bind(settings: Settings) -> None:
     Raises:
         RemoteNotAllowed: says how to publish the service safely.
     """
-    if settings.loopback or settings.allow_remote:
+    if settings.loopback or settings.login or settings.allow_remote:
         return
     raise RemoteNotAllowed(
         403,
         f"{settings.host} can be reached by others, and there is no login: whoever reaches the port can move the robot",
-        remedy=f"reach it through a tunnel (ssh -L {settings.port}:127.0.0.1:{settings.port} thismachine), or put a "
-        "proxy that authenticates in front of 127.0.0.1; inside a container set SEED_ALLOW_REMOTE=1",
+        remedy="set SEED_LOGIN=1: the service then asks everybody who they are (docs/people.md); or reach it through a "
+        f"tunnel (ssh -L {settings.port}:127.0.0.1:{settings.port} thismachine); inside a container, or behind a proxy "
+        "that authenticates, set SEED_ALLOW_REMOTE=1",
     )
 
 
@@ -73,9 +83,11 @@ class Guard:
             refused = too_large(limit)
         if refused is not None:
             await _drain(receive)
-            await response(refused, {"connection": "close"})(scope, receive, _protected(send))
+            await response(refused, {"connection": "close"})(scope, receive, _protected(send, CONTENT_POLICY))
             return
-        await self.app(scope, _limited(receive, limit), _protected(send))
+        swagger = scope["path"].endswith("/docs")
+        policy = SWAGGER_POLICY if swagger else CONTENT_POLICY
+        await self.app(scope, _limited(receive, limit), _protected(send, policy))
 
     def _refusal(self, scope: Scope, headers: dict[bytes, str]) -> Problem | None:
         host = headers.get(b"host", "")
@@ -102,7 +114,7 @@ class Guard:
         if name in LOOPBACK_NAMES or name in self.settings.allowed_hosts:
             return True
         # rebinding needs a name; an address in numbers is safe where remote use is allowed
-        return self.settings.allow_remote and _is_address(name)
+        return (self.settings.allow_remote or self.settings.login) and _is_address(name)
 
     def _known_origin(self, origin: str, host: str) -> bool:
         netloc = urlsplit(origin).netloc.lower()
@@ -147,10 +159,12 @@ async def _drain(receive: Receive) -> None:
             return
 
 
-def _protected(send: Send) -> Send:
+def _protected(send: Send, policy: str) -> Send:
+    headers = (*PROTECTIVE_HEADERS, (b"content-security-policy", policy.encode()))
+
     async def protected(message: Message) -> None:
         if message["type"] == "http.response.start":
-            message = {**message, "headers": [*message.get("headers", []), *PROTECTIVE_HEADERS]}
+            message = {**message, "headers": [*message.get("headers", []), *headers]}
         await send(message)
 
     return protected

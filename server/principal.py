@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextvars import ContextVar
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import TypeVar
@@ -31,8 +32,8 @@ class Principal:
 
     name: str
     role: Role
-    trainer_id: int | None = None
-    """Row of `trainer`. Without a login it is None: the row is found by name, or made, with the first click."""
+    person_id: int | None = None
+    """Row of `person`; None without a login, and for the service itself."""
     session_id: int | None = None
     """Row of `session`; None without a login, and for the service itself."""
     experiment_id: int | None = None
@@ -64,3 +65,5 @@ LOCAL = Principal("local", Role.OWNER)
 """Whoever sits at this machine, where no login is asked for."""
 SERVICE = Principal("service", Role.OWNER)
 """The service itself, in what it does of its own accord."""
+acting: ContextVar[Principal] = ContextVar("acting", default=SERVICE)
+"""In whose name the task at hand acts. `server.access` sets it; what the service begins by itself sets it back."""

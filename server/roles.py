@@ -33,6 +33,21 @@ NEEDS: dict[str, Need] = {
     "page": OPEN,
     "custom_swagger_ui_html": OPEN,
     "swagger_ui_redirect": OPEN,
+    # coming in and going out
+    "get_me": OPEN,
+    "sign_in": OPEN,
+    "sign_out": ANYONE,
+    "make_token": ANYONE,
+    # people; who may invite, and let out, also has to have the role that it is about
+    "invite": OPERATOR,
+    "list_invitations": OPERATOR,
+    "revoke_invitation": OPERATOR,
+    "list_people": OPERATOR,
+    "update_person": OWNER,
+    "revoke_person": OPERATOR,
+    "list_present": VIEWER,
+    "list_audit": OPERATOR,
+    "export_audit": OPERATOR,
     # what can be chosen
     "list_tasks": ANYONE,
     "get_task": ANYONE,

@@ -93,7 +93,7 @@ async def opened(settings: Settings, listener: Publisher | None = None) -> Async
             await hub.start()
             critics = Critics(store, settings, hub)
             try:
-                yield Service(settings, store, rooms, hub, Doors(), critics)
+                yield Service(settings, store, rooms, hub, Doors(settings, store), critics)
             finally:
                 await critics.close()
                 await measuring.close()

@@ -14,7 +14,7 @@ class Settings(BaseSettings):
 
     model_config = SettingsConfigDict(env_prefix="SEED_", extra="ignore", frozen=True)
 
-    host: Annotated[str, Field(description="address to listen on; anything but loopback needs SEED_ALLOW_REMOTE")] = (
+    host: Annotated[str, Field(description="address to listen on; anything but loopback needs SEED_LOGIN")] = (
         "127.0.0.1"
     )
     port: Annotated[int, Field(ge=0, le=65535, description="TCP port to listen on; 0 takes a free one")] = 8000
@@ -25,13 +25,40 @@ class Settings(BaseSettings):
         str | None,
         Field(description="SQLAlchemy URL of the database, e.g. of PostgreSQL; none: SQLite in the data directory"),
     ] = None
+    login: Annotated[
+        bool,
+        Field(
+            description="ask everybody who they are. The first start prints the owner's token; the owner invites others"
+        ),
+    ] = False
     allow_remote: Annotated[
         bool,
         Field(
-            description="listen on an address that others can reach. There is no login: whoever reaches the port can "
+            description="listen, without a login, on an address that others can reach: whoever reaches the port can "
             "move the robot. Set it only inside a container or behind a proxy that authenticates"
         ),
     ] = False
+    root_path: Annotated[
+        str,
+        Field(
+            pattern=r"^(/[A-Za-z0-9._~-]+)*$",
+            description="path under which a proxy in front publishes the service, e.g. /seed; none: at its root",
+        ),
+    ] = ""
+    trusted_proxies: Annotated[
+        str,
+        Field(description="comma-separated addresses of proxies whose X-Forwarded-For and X-Forwarded-Proto count"),
+    ] = "127.0.0.1"
+    session_hours: Annotated[
+        float, Field(gt=0, le=24 * 365, description="hours that somebody stays signed in, with a login")
+    ] = 720.0
+    rate_limit: Annotated[
+        str,
+        Field(
+            pattern=r"^[1-9][0-9]{0,8}/(second|minute|hour)$",
+            description="with a login, requests of one person, and beside that of one address",
+        ),
+    ] = "6000/minute"
     allowed_hosts: Annotated[
         tuple[str, ...],
         NoDecode,

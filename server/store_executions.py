@@ -9,7 +9,7 @@ from sqlalchemy.orm import Session
 
 from robot_adapters.base import SafetyViolation
 from server import gate, schemas, schemas_trust, store_trust, store_votes
-from server.models import ExecutionRow, ExperimentRow, ProposalRow
+from server.models import ExecutionRow, ExperimentRow, FeedbackRow, ProposalRow, TrainerRow
 from server.models_incidents import ViolationRow
 from server.store_closing import close
 from server.store_errors import Conflict, NotFound
@@ -71,8 +71,30 @@ def begin(
         experiment.auto_approved += _by_critic(proposal)
         experiment.updated_at = now()
     session.flush()
-    journal(session, experiment.id, "execution_started", execution=row.id, proposal=proposal_id, digest=proposal.digest)
+    journal(
+        session,
+        experiment.id,
+        "execution_started",
+        execution=row.id,
+        proposal=proposal_id,
+        digest=proposal.digest,
+        approved_by=_approvers(session, proposal),
+    )
     return decision, row
+
+
+def _approvers(session: Session, proposal: ProposalRow) -> list[str]:
+    """Whose judgement lets it move: those who said good, or what stands in for them."""
+    if proposal.verdict_source != schemas_trust.VerdictSource.TRAINERS:
+        return [str(proposal.verdict_source)]
+    query = (
+        select(TrainerRow.name)
+        .join(FeedbackRow, FeedbackRow.trainer_id == TrainerRow.id)
+        .where(FeedbackRow.proposal_id == proposal.id, FeedbackRow.status == "stored", FeedbackRow.value == 1)
+        .where(FeedbackRow.undone_at.is_(None))
+        .order_by(FeedbackRow.id)
+    )
+    return list(session.scalars(query))
 
 
 def superseded_by(session: Session, proposal_id: int) -> tuple[list[schemas.Proposal], list[StoredLabel]]:

@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
-from server import lifecycle, schemas
+from server import lifecycle, schemas, store_audit
 from server.models import EpisodeRow, EvaluationRow, EventRow, ExecutionRow, ExperimentRow, ProposalRow
 from server.models_tags import TagRow
 from server.store_closing import close
@@ -47,9 +47,11 @@ def load(session: Session, experiment_id: int) -> ExperimentRow:
 
 
 def journal(session: Session, experiment_id: int, kind: str, **payload: Any) -> EventRow:
-    """Write a line of the experiment's journal."""
+    """Write a line of the experiment's journal; a decision goes into the audit too."""
     row = EventRow(experiment_id=experiment_id, kind=kind, payload=payload, at=now())
     session.add(row)
+    if kind in store_audit.DECISIONS:
+        store_audit.record(session, kind, experiment_id, **payload)
     return row
 
 

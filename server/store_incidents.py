@@ -48,9 +48,7 @@ def report(session: Session, execution_id: int, body: wire.ReportCreate) -> tupl
     )
     session.flush()
     session.refresh(row, ["reports"])
-    journal(
-        session, row.experiment_id, "execution_reported", execution=row.id, outcome=body.outcome, trainer=body.trainer
-    )
+    journal(session, row.experiment_id, "execution_reported", execution=row.id, outcome=body.outcome, by=body.trainer)
     return row, False
 
 

@@ -68,7 +68,9 @@ def relabel(session: Session, feedback_id: int, body: RelabelCreate, *, anybodys
     experiment.relabelled += 1
     experiment.updated_at = now()
     session.flush()
-    journal(session, row.experiment_id, "relabelled", feedback=row.id, proposal=row.proposal_id, before=before)
+    journal(
+        session, row.experiment_id, "relabelled", feedback=row.id, proposal=row.proposal_id, before=before, by=by.name
+    )
     learned = _labels(session, FeedbackRow.id == feedback_id)
     return Relabelled(
         feedback_wire(row), duplicate=False, before=before, after=value, label=learned[0] if learned else None

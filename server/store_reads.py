@@ -30,6 +30,7 @@ from server.schemas_catalogue import TrainerPage
 from server.schemas_listing import Listing
 from server.schemas_trust import AutoApprovalRecord, Calibration
 from server.store_errors import Conflict, NotFound
+from server.store_people import PeopleStore
 from server.store_quality import QualityStore
 from server.store_values import StoredLabel, StoredResponse
 
@@ -51,6 +52,7 @@ class Reads:
     def __init__(self, database: Database) -> None:
         self._database = database
         self.quality = QualityStore(database)
+        self.people = PeopleStore(database)
 
     async def experiment(self, experiment_id: int) -> schemas.Experiment:
         """One experiment."""

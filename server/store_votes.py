@@ -10,6 +10,7 @@ from sqlalchemy.orm import Session
 from server import aggregation, schemas, schemas_trust, store_experiments, store_practice, store_quality
 from server.models import ExperimentRow, FeedbackRow, ProposalRow, TrainerRow
 from server.schemas_together import Together
+from server.store_audit import record
 from server.store_closing import close
 from server.store_errors import Conflict
 from server.store_experiments import journal, load, now
@@ -53,6 +54,7 @@ def submit(
     status = "practice" if not counts else "late" if late else "stored"
     shown = click.estimate_shown
     row = _store(session, proposal, by, click.click_id, click.label, status=status, estimate_shown=shown)
+    record(session, "clicked", experiment.id, by=by.name, proposal=proposal_id, value=click.label, status=status)
     if not counts:
         return Submission(feedback_wire(row), duplicate=False)
     experiment.updated_at = now()

@@ -4,7 +4,7 @@ from typing import Any, Literal
 
 from alembic import context
 
-from server import models, models_quality, models_tags  # noqa: F401 - their tables belong to the metadata too
+from server import models, models_people, models_quality, models_tags  # noqa: F401 - their tables belong to the metadata too
 from server.models_base import Base, UtcDateTime
 
 

@@ -23,6 +23,7 @@ _DESCRIPTIONS = {
     409: "The state of things doesn't allow it; `current` and `allowed` say what does",
     413: "The body is too large",
     422: "A field is wrong; `fields` names it",
+    429: "Too many requests; `Retry-After` says when to come again",
     500: "An error of the service's own",
     503: "Storage or a worker can't be had right now",
 }
@@ -47,5 +48,5 @@ def errors(*statuses: int) -> dict[int | str, dict[str, Any]]:
     content = {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
     return {
         status: {"model": Problem, "description": _DESCRIPTIONS[status], "content": content}
-        for status in sorted({401, 403, 500, 503, *statuses})
+        for status in sorted({401, 403, 429, 500, 503, *statuses})
     }

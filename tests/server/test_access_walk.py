@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from datetime import timedelta
 from pathlib import Path
 
 import pytest
@@ -13,7 +14,8 @@ from websockets.exceptions import InvalidStatus
 from server import roles
 from server.app import create_app
 from server.doors import Doors
-from server.principal import Principal, Role
+from server.principal import SERVICE, Principal, Role
+from server.schemas_people import InvitationCreate, SignIn
 from server.settings import Settings
 from tests.server.serving import Serving, serving
 from tests.server.test_errors import check_problem
@@ -118,7 +120,9 @@ async def scene(live: Serving) -> tuple[dict[str, int], int]:
     practice = await live.http.post(f"/api/v1/experiments/{here}/practice", json={})
     known = {"proposal_id": proposal.id, "feedback_id": click.json()["id"], "incident_id": incident.id}
     known |= {"experiment_id": here, "practice_id": practice.json()["id"], "execution_id": execution.id}
-    return known, elsewhere
+    invitation, token = await live.service.store.people.invite(InvitationCreate(), SERVICE)
+    person, _ = await live.service.store.people.sign_in(SignIn(token=token, name="somebody"), lasts=timedelta(hours=1))
+    return known | {"invitation_id": invitation.id, "person_id": person.id}, elsewhere
 
 
 def believe_the_header(monkeypatch: pytest.MonkeyPatch, elsewhere: int) -> None:
