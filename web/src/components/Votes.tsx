@@ -73,7 +73,7 @@ export function Votes(props: VotesProps) {
   if (experiment.teacher || (votes === null && lease === "fresh")) return null;
   return (
     <p className="votes soft" role="status" data-testid="votes" data-lease={lease}>
-      {votes}
+      {votes && <span>{votes}</span>}
       {lease !== "fresh" && <b>{lease === "ends" ? t("together.leaseEnds") : t("together.leaseEnded")}</b>}
     </p>
   );
