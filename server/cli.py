@@ -1,4 +1,4 @@
-"""The command line: `seed serve`, `train`, `evaluate`, `study`, `check`, `owner-token`, `openapi`.
+"""The command line: `seed serve`, `train`, `evaluate`, `study`, `robot`, `check`, `owner-token`, `openapi`.
 
 Exit codes: 0 done; 1 `check` has findings; 2 wrong arguments, or a machine that isn't set up; 3 robot, simulator or
 learner failed or can't be had; 130 interrupted.
@@ -17,6 +17,7 @@ from pydantic import ValidationError
 from rich.console import Console
 
 from robot_adapters.base import AdapterError, Unavailable
+from server.cli_robot import app as robot
 from server.cli_runs import Interrupted, RunFailed, check_plug_in, evaluate_stored, train_headless
 from server.cli_serve import run_server
 from server.cli_set import settings_from
@@ -39,6 +40,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 app.add_typer(study, name="study")
+app.add_typer(robot, name="robot")
 _stderr = Console(stderr=True, highlight=False)
 
 DataDir = Annotated[

@@ -19,7 +19,7 @@ from robot_adapters.franka.perception.camera import Lens
 from robot_adapters.franka.perception.rays import View
 
 VERSION = 1
-AGAIN = "calibrate the camera and put {}.json there; docs/franka-cameras.md says what it holds"
+AGAIN = "calibrate it: seed robot calibrate --camera {}=SOURCE (docs/franka-cameras.md)"
 
 
 class BadCalibration(AdapterError):

@@ -95,6 +95,10 @@ def load(task: Task, path: str = "") -> Tagging:
     Raises:
         BadTags: there is none, it can't be read, or it doesn't say how to find every object of the task.
     """
+    sliding = {spec.name: spec.fixed[0] for spec in task.objects if spec.shape == "slider" and spec.fixed is not None}
+    wanted = {spec.name for spec in task.objects if spec.movable} | sliding.keys()
+    if not wanted and not path:
+        return Tagging({}, {})
     name = path or f"the tag file of {task.name}"
     try:
         text = (
@@ -114,8 +118,6 @@ def load(task: Task, path: str = "") -> Tagging:
         first = error.errors()[0]
         at = ".".join(map(str, first["loc"])) or "the file"
         raise BadTags(f"{name}: {at}: {first['msg']}", remedy="see docs/franka-cameras.md") from error
-    sliding = {spec.name: spec.fixed[0] for spec in task.objects if spec.shape == "slider" and spec.fixed is not None}
-    wanted = {spec.name for spec in task.objects if spec.movable} | sliding.keys()
     if read.objects.keys() != wanted:
         raise BadTags(
             f"{name} has {', '.join(sorted(read.objects))}, the task {', '.join(sorted(wanted)) or 'nothing to find'}",
