@@ -57,7 +57,8 @@ class Watch:
             patience = max(patience, FIRST)
         with self._changed:
             self._changed.wait_for(lambda: self._failure is not None or self._fresh(after), patience)
-            if self._newest is not None and self._fresh(after):
+            # an old picture of a camera that is gone would be taken for what is there now
+            if self._newest is not None and self._fresh(after) and self.trouble() is None:
                 return self._newest
         raise CameraLost(f"camera {self.name}: {self.trouble() or 'no new picture'}", remedy="check its cable")
 

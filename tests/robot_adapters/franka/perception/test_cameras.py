@@ -145,6 +145,8 @@ def test_a_pulled_cable_is_noticed_and_so_is_its_return(watch: Watch, device: Fa
     with pytest.raises(CameraLost, match="left: the cable is out"):
         watch.latest(after=time.time() + 1)
     assert watch.trouble() == "the cable is out"
+    with pytest.raises(CameraLost, match="the cable is out"):
+        watch.latest()  # not the last one before it went
     device.plugged.set()
     while watch.trouble() is not None:
         threading.Event().wait(0.01)
@@ -159,3 +161,5 @@ def test_a_frozen_driver_is_noticed_by_its_stamps(watch: Watch, device: FakeDevi
     while watch.trouble() is None and time.monotonic() < deadline:
         threading.Event().wait(0.02)
     assert "no picture for" in str(watch.trouble())
+    with pytest.raises(CameraLost, match="no picture for"):
+        watch.latest()
