@@ -77,6 +77,8 @@ class Robot:
         self._index = robot
         factory = registry.adapter(adapter)
         self._images = Images(Path(data_dir))
+        # adapters find what belongs to the machine there, whichever way the service was told: a rig's calibration
+        os.environ["SEED_DATA_DIR"] = data_dir
         self._adapter = factory(task, factory.settings.model_validate(settings))
         info = self._adapter.info
         return {"name": info.name, "simulated": info.simulated, "cameras": list(info.cameras)}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -315,3 +316,22 @@ def test_the_server_loads_neither_torch_nor_a_simulator() -> None:
     code = f"import sys, server.hub, server.teacher; print([m for m in {heavy} if m in sys.modules])"
     said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert said.stdout.strip() == "[]"
+
+
+async def test_a_rigs_calibration_is_sought_beside_the_data_of_this_service(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("SEED_DATA_DIR", str(tmp_path / "another"))
+    worker = await Worker.spawn("robot", "server.workers.robot")
+    try:
+        with pytest.raises(CommandFailed, match=re.escape(str(tmp_path / "mine" / "calibration"))):
+            await worker.call(
+                "build",
+                deadline=DEADLINE,
+                adapter="franka",
+                task="stacking",
+                settings={},
+                data_dir=str(tmp_path / "mine"),
+            )
+    finally:
+        await worker.close()
