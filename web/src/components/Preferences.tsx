@@ -1,7 +1,7 @@
 // How the page looks and speaks in this browser: colours and language, remembered.
 import { useState } from "react";
 import { chooseLanguage, LANGUAGES, nameOf, t, useLanguage } from "../i18n";
-import { isName, ME, rename } from "../me";
+import { isName, ME, rename, SIGNED_IN } from "../me";
 import { change, RESTS, useSettings } from "../settings";
 import { chooseTheme, THEMES, useTheme } from "../theme";
 import { Dialog } from "./Dialog";
@@ -59,7 +59,7 @@ function Panel({ onClose }: { onClose: () => void }) {
             ))}
           </fieldset>
         </div>
-        <Name />
+        {!SIGNED_IN && <Name />}
         <Choice
           label={t("settings.language")}
           name="language"
