@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that pip can't bring, where they are missing: scripts/system.sh run|test PYTHON
 #   run   a C compiler with headers (evdev, which robosuite pulls in, has no wheel), software OpenGL, venv
-#   test  Chromium, and libusb for RealSense recordings, on top of those
+#   test  Chromium, libusb for RealSense recordings, and nginx with openssl to stand in front, on top of those
 # Asks apt only if something is missing; without the right to install, it says what to type.
 set -euo pipefail
 
@@ -24,6 +24,8 @@ library libOSMesa.so.8 || missing+=(libosmesa6)
 library libGL.so.1 || missing+=(libgl1)
 if [ "$purpose" = test ]; then
     command -v chromium >/dev/null || missing+=(chromium)
+    PATH="$PATH:/usr/sbin" command -v nginx >/dev/null || missing+=(nginx-light)
+    command -v openssl >/dev/null || missing+=(openssl)
     library libusb-1.0.so.0 || missing+=(libusb-1.0-0)
 fi
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import secrets
 from collections.abc import AsyncIterator
@@ -99,7 +100,7 @@ def create_app(settings: Settings | None = None, service: Service | None = None)
     describe(app)
     app.add_middleware(Guard, settings=settings)
     _add_probes(app)
-    _add_page(app)
+    _add_page(app, settings)
     return app
 
 
@@ -132,13 +133,13 @@ class _PagePath(Convertor[str]):
         return value
 
 
-def _add_page(app: FastAPI) -> None:
+def _add_page(app: FastAPI, settings: Settings) -> None:
     register_url_convertor("page", _PagePath())
 
     @app.api_route("/{path:page}", methods=["GET", "HEAD"], include_in_schema=False)
     async def page(path: str) -> Response:
         """A file of the built page; an address without a suffix is one of the page's own (SPA)."""
-        file = _static(path)
+        file = None if path == "index.html" else _static(path)
         if file is not None:
             # Vite names what it builds by content hash
             cache = "public, max-age=31536000, immutable" if path.startswith("assets/") else "no-cache"
@@ -148,7 +149,10 @@ def _add_page(app: FastAPI) -> None:
             return HTMLResponse(NOT_BUILT, 503)
         if Path(path).suffix:
             raise errors.ServiceError(404, f"the page has no file /{path}", remedy="reload the page")
-        return FileResponse(index, headers={"Cache-Control": "no-cache"})
+        # where a proxy publishes the page: everything that it asks for is beside this
+        base = f'<head>\n    <base href="{settings.root_path}/" />'
+        text = (await asyncio.to_thread(index.read_text, "utf-8")).replace("<head>", base, 1)
+        return HTMLResponse(text, headers={"Cache-Control": "no-cache"})
 
 
 def _static(path: str) -> Path | None:

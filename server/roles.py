@@ -124,7 +124,7 @@ NEEDS: dict[str, Need] = {
     "list_trainers": OPERATOR,
     # over all experiments
     "compare_experiments": VIEWER,
-    "list_tags": VIEWER,
+    "list_tags": ANYONE,
     "list_studies": VIEWER,
     "get_study": VIEWER,
     "get_study_file": VIEWER,

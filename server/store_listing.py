@@ -47,10 +47,12 @@ def experiments(session: Session, listing: Listing, cursor: str | None, limit: i
     return schemas.ExperimentPage(items=[wire.experiment(row.ExperimentRow) for row in page], next_cursor=after)
 
 
-def tags(session: Session) -> list[TagInfo]:
-    """Every tag in use, by the alphabet."""
+def tags(session: Session, only: int | None) -> list[TagInfo]:
+    """Every tag in use, by the alphabet; `only` of one experiment."""
     count = func.count(TagRow.experiment_id)
     query = select(TagRow.tag, count).group_by(TagRow.tag).order_by(TagRow.tag)
+    if only is not None:
+        query = query.where(TagRow.experiment_id == only)
     return [TagInfo(tag=tag, experiments=number) for tag, number in session.execute(query)]
 
 

@@ -6,6 +6,7 @@ const service = process.env.SEED_URL ?? "http://127.0.0.1:8000";
 
 export default defineConfig({
   plugins: [react()],
+  base: "./", // what <base> is taken from: the service puts it in
   build: {
     outDir: "../server/static",
     emptyOutDir: true,

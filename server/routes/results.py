@@ -8,7 +8,7 @@ from fastapi import APIRouter, Query
 from fastapi.responses import StreamingResponse
 
 from server import comparing, export, store_curves, store_listing
-from server.routes.dependencies import LARGEST_ID, Id, Running, errors
+from server.routes.dependencies import LARGEST_ID, Id, Running, Who, errors
 from server.schemas_curves import Comparison, Curves, Grouping, Measure, PaperFigures
 from server.schemas_listing import TagInfo
 
@@ -72,6 +72,6 @@ def get_paper_figures() -> PaperFigures:
 
 
 @router.get("/tags", responses=errors())
-async def list_tags(service: Running) -> list[TagInfo]:
-    """Every tag in use."""
-    return await service.store.read(store_listing.tags)
+async def list_tags(service: Running, who: Who) -> list[TagInfo]:
+    """Every tag in use; for those invited to one experiment, its own."""
+    return await service.store.read(lambda s: store_listing.tags(s, who.experiment_id))

@@ -51,8 +51,8 @@ def experiment(service: LiveService) -> int:
 def test_every_page_of_the_code_is_looked_at() -> None:
     loaded = set(re.findall(r"pages/(\w+)Page\"", ENTRY.read_text("utf-8")))
     assert loaded == {
-        "Compare", "Critic", "Episode", "Experiments", "Gallery", "NewExperiment", "Practice", "Results", "Studies",
-        "Study", "Trainer",
+        "Compare", "Critic", "Episode", "Experiments", "Gallery", "NewExperiment", "People", "Practice", "Results",
+        "SignIn", "Studies", "Study", "Trainer",
     }  # fmt: skip
 
 

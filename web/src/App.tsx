@@ -3,6 +3,7 @@
 import { type ComponentType, lazy, Suspense, useEffect } from "react";
 import { Header } from "./components/Header";
 import { t, useLanguage } from "./i18n";
+import { LOGIN, may, ROLE } from "./me";
 import { ExperimentsPage } from "./pages/ExperimentsPage";
 import { TrainerPage } from "./pages/TrainerPage";
 import { Link, usePath } from "./router";
@@ -19,6 +20,8 @@ const ResultsPage = later(async () => (await import("./pages/ResultsPage")).Resu
 const GalleryPage = later(async () => (await import("./pages/GalleryPage")).GalleryPage);
 const EpisodePage = later(async () => (await import("./pages/EpisodePage")).EpisodePage);
 const CriticPage = later(async () => (await import("./pages/CriticPage")).CriticPage);
+const SignInPage = later(async () => (await import("./pages/SignInPage")).SignInPage);
+const PeoplePage = later(async () => (await import("./pages/PeoplePage")).PeoplePage);
 const ComparePage = later(async () => (await import("./pages/ComparePage")).ComparePage);
 
 /** What of an address belongs to one experiment, and its page. */
@@ -46,6 +49,7 @@ function Page({ path }: { path: string }) {
   const study = /^\/studies\/([^/]+)\/?$/.exec(path);
   if (study?.[1]) return <StudyPage key={study[1]} name={decodeURIComponent(study[1])} />;
   if (path === "/studies") return <StudiesPage />;
+  if (path === "/people" && LOGIN && may("operator")) return <PeoplePage />;
   if (path === "/compare") return <ComparePage />;
   if (path === "/experiments/new") return <NewExperimentPage />;
   if (path === "/" || path === "/experiments") return <ExperimentsPage />;
@@ -81,7 +85,7 @@ export function App() {
   useLanguage(); // a new language draws everything below anew
   return (
     <Suspense fallback={<Coming />}>
-      <Page path={path} />
+      {ROLE === null || path === "/join" ? <SignInPage /> : <Page path={path} />}
     </Suspense>
   );
 }

@@ -1,6 +1,6 @@
 // What is going on now, in words.
 import { skillName, t } from "./i18n";
-import { ME } from "./me";
+import { ME, may } from "./me";
 import { isOpen } from "./robots";
 import { chosenFor, pendingFor } from "./selectors";
 import { type TrainerState, wordFor } from "./state";
@@ -84,6 +84,7 @@ function waiting(state: TrainerState, drawn: boolean): Activity {
 /** The open proposal is on the screen: whether it waits for this trainer, or for others. */
 function asking(state: TrainerState): Activity {
   const { proposal } = state;
+  if (!may("trainer")) return busy(t("people.onlyLooks"));
   if (proposal && (proposal.heard.includes(ME) || chosenFor(state, proposal.id) !== null))
     return busy(t("activity.others"));
   return state.asks === "no" ? busy(t("activity.notYours")) : { tone: "you", text: t("activity.you") };

@@ -1220,7 +1220,7 @@ export interface paths {
         };
         /**
          * List Tags
-         * @description Every tag in use.
+         * @description Every tag in use; for those invited to one experiment, its own.
          */
         get: operations["list_tags"];
         put?: never;

@@ -1,6 +1,7 @@
 // REST: JSON in and out; every failure becomes an `ApiError` that carries problem details with a remedy.
+import { at } from "./base";
 import { t } from "./i18n";
-import { ME } from "./me";
+import { ME, signedOut } from "./me";
 import type {
   AdapterInfo,
   Aggregation,
@@ -22,18 +23,23 @@ import type {
   HistoryEntry,
   HistoryPage,
   Incident,
+  Invitation,
+  InvitationCreate,
+  InvitationMade,
   LabelQuality,
   Measure,
   MetricPage,
   MetricPoint,
   Mode,
   PaperFigures,
+  Person,
   PracticeCard,
   PracticeProgress,
   PracticeResult,
   Problem,
   Proposal,
   Reported,
+  SignedIn,
   Study,
   StudySummary,
   TagInfo,
@@ -45,7 +51,7 @@ import type {
   Verb,
 } from "./wire";
 
-const ROOT = "/api/v1";
+const ROOT = at("/api/v1");
 
 export class ApiError extends Error {
   constructor(readonly problem: Problem) {
@@ -94,6 +100,7 @@ async function request<T>(method: string, path: string, body?: unknown): Promise
   } catch {
     throw new ApiError(unreachable());
   }
+  if (response.status === 401) signedOut();
   if (!response.ok) throw new ApiError(await problemFrom(response));
   return (response.status === 204 ? null : await response.json()) as T;
 }
@@ -292,6 +299,29 @@ export async function metrics(id: number): Promise<MetricPoint[]> {
   } while (cursor);
   return points;
 }
+
+/** Come in by an invitation's token, with a name, or by one's own. */
+export const signIn = (token: string, name: string | null) =>
+  request<SignedIn>("POST", "/sign-in", name === null ? { token } : { token, name });
+
+export const signOut = () => request<null>("POST", "/sign-out");
+
+export const people = () => list<Person>("/people?limit=200");
+
+export const invitations = () => list<Invitation>("/invitations?limit=200");
+
+export const invite = (body: Partial<InvitationCreate>) =>
+  request<InvitationMade>("POST", "/invitations", body);
+
+export const withdraw = (invitationId: number) => request<null>("DELETE", `/invitations/${invitationId}`);
+
+export const letOut = (personId: number) => request<Person>("DELETE", `/people/${personId}`);
+
+export const giveRole = (personId: number, role: Person["role"]) =>
+  request<Person>("PATCH", `/people/${personId}`, { role });
+
+/** Where the audit can be had as a table. */
+export const auditTable = () => `${ROOT}/exports/audit`;
 
 export const studies = () => request<StudySummary[]>("GET", "/studies");
 

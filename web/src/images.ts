@@ -1,4 +1,5 @@
 // Decoded still images by content hash. An overlay may only be shown once its own image is here.
+import { at } from "./base";
 import type { View } from "./wire";
 
 const KEPT = 16;
@@ -7,7 +8,7 @@ const RETRY_MS = 1500;
 export type Decode = (url: string) => Promise<ImageBitmap>;
 
 async function fetchAndDecode(url: string): Promise<ImageBitmap> {
-  const response = await fetch(url);
+  const response = await fetch(at(url));
   if (!response.ok) throw new Error(`${url}: ${response.status}`);
   return createImageBitmap(await response.blob());
 }

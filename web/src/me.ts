@@ -1,32 +1,45 @@
-// Whose clicks this page sends: one place for all of it. With a login it is who signed in; without one whoever sits here
-// says their name.
-import type { components } from "./api";
+// Whose clicks this page sends: one place for all of it. With a login the service says who it is; without one whoever
+// sits here says their name.
+
+import { at } from "./base";
+import type { Me, Role } from "./wire";
 
 const KEPT = "seed.trainer";
 const NOBODY_SAID = "local";
 /** As the service takes it: 1 to 64 characters, none of them a control character. */
 // biome-ignore lint/suspicious/noControlCharactersInRegex: those are what a name may not hold
 const NAME = /^[^\x00-\x1f\x7f]{1,64}$/;
+const PATIENCE_MS = 3000;
+const ROLES: readonly Role[] = ["viewer", "trainer", "operator", "owner"];
 
 export const isName = (name: string): boolean => NAME.test(name);
 
 export let ME = kept();
-/** Whether people sign in here: then nobody says another name. */
-export let SIGNED_IN = false;
+/** Null: somebody has to sign in first. Without a login whoever sits here may do everything. */
+export let ROLE: Role | null = "owner";
+export let LOGIN = false;
 
-const PATIENCE_MS = 3000;
+/** Whether the one who sits here may do what this role may. */
+export const may = (role: Role): boolean => ROLE !== null && ROLES.indexOf(ROLE) >= ROLES.indexOf(role);
 
-/** Asks the service who this is; before the page is drawn. */
+/** Ask the service who sits here, before anything is drawn. */
 export async function findOut(): Promise<void> {
   try {
-    const answer = await fetch("/api/v1/me", { signal: AbortSignal.timeout(PATIENCE_MS) });
-    const me = (await answer.json()) as Partial<components["schemas"]["Me"]>;
-    if (!answer.ok || !me.login || !me.name) return;
-    ME = me.name;
-    SIGNED_IN = true;
+    const response = await fetch(at("/api/v1/me"), { signal: AbortSignal.timeout(PATIENCE_MS) });
+    if (!response.ok) return; // the page says that the service doesn't answer when it asks for more
+    const me = (await response.json()) as Me;
+    LOGIN = me.login;
+    if (!LOGIN) return;
+    ROLE = me.role ?? null;
+    ME = me.name ?? NOBODY_SAID;
   } catch {
-    // A service that doesn't answer refuses what isn't this trainer's by itself.
+    // As above.
   }
+}
+
+/** Whoever sat here is not let in any more: the page begins anew and asks who is there. */
+export function signedOut(): void {
+  if (LOGIN && ROLE !== null) location.reload();
 }
 
 /** From now on; the page begins anew, since everything it knows is about the one before. */

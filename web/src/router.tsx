@@ -1,5 +1,6 @@
 // A handful of pages need no routing library: the History API and one store.
 import { type MouseEvent, type ReactNode, useSyncExternalStore } from "react";
+import { at, BASE } from "./base";
 
 const listeners = new Set<() => void>();
 
@@ -17,7 +18,7 @@ function tellAll(): void {
 }
 
 export function navigate(path: string): void {
-  history.pushState(null, "", path);
+  history.pushState(null, "", at(path));
   window.scrollTo(0, 0);
   tellAll();
 }
@@ -30,7 +31,7 @@ export function setSearch(search: URLSearchParams): void {
 }
 
 export function usePath(): string {
-  return useSyncExternalStore(subscribe, () => location.pathname);
+  return useSyncExternalStore(subscribe, () => location.pathname.slice(BASE.length) || "/");
 }
 
 export function useSearch(): string {
@@ -52,7 +53,7 @@ export function Link(props: {
   };
   return (
     <a
-      href={props.to}
+      href={at(props.to)}
       className={props.className}
       aria-label={props.label}
       aria-current={props.current ? "page" : undefined}

@@ -1,5 +1,7 @@
 // One WebSocket per open experiment, kept alive: heartbeat, backoff, and an immediate try when the device comes back.
+import { at } from "./base";
 import { type Frame, parseFrame } from "./frames";
+import { signedOut } from "./me";
 import type { ClientMessage, StreamEvent } from "./wire";
 
 export type Connection = "connecting" | "open" | "lost";
@@ -8,11 +10,13 @@ const FIRST_WAIT_MS = 250;
 const LONGEST_WAIT_MS = 8000;
 const PING_MS = 3000;
 const SILENCE_MS = 5000;
+/** The code by which the service says that the access of whoever sits here has ended. */
+const SIGNED_OUT = 4401;
 
 /** Where an experiment's stream is. */
 export function streamUrl(id: number): string {
   const scheme = location.protocol === "https:" ? "wss" : "ws";
-  return `${scheme}://${location.host}/api/v1/experiments/${id}/stream`;
+  return `${scheme}://${location.host}${at(`/api/v1/experiments/${id}/stream`)}`;
 }
 
 export interface StreamHandlers {
@@ -78,7 +82,10 @@ export class Stream {
     this.socket = socket;
     this.owedSince = Date.now();
     socket.onmessage = (message) => this.receive(socket, message.data);
-    socket.onclose = () => this.lost(socket);
+    socket.onclose = ({ code }) => {
+      if (code === SIGNED_OUT) signedOut();
+      this.lost(socket);
+    };
   }
 
   private receive(socket: WebSocket, data: string | ArrayBuffer): void {

@@ -2,6 +2,7 @@
 
 import { useEffect, useState } from "react";
 import { t } from "./i18n";
+import { may } from "./me";
 import { isOpen, queueOf } from "./robots";
 import { chosenFor, judgeable } from "./selectors";
 import type { TrainerState } from "./state";
@@ -32,6 +33,7 @@ export interface Judging {
 /** What to say of a press that doesn't count; nothing where judging isn't on offer at all. */
 function whyNot(state: TrainerState, ready: boolean): string | null {
   const { experiment, proposal } = state;
+  if (!may("trainer")) return t("people.onlyLooks");
   if (ready) return t("judge.tooFast");
   if (experiment?.lifecycle !== "running" || experiment.halted || experiment.teacher) return null;
   const waiting = queueOf(state.robots, state.judged);
@@ -52,7 +54,7 @@ export function useJudging(
   const clock = useDrawnAt(drawnId);
   const [seenId, setSeenId] = useState<number | null>(null);
   const [hint, setHint] = useState<Hint | null>(null);
-  const ready = judgeable(state, drawnId);
+  const ready = judgeable(state, drawnId) && may("trainer");
 
   useEffect(() => {
     if (drawnId === null) return;

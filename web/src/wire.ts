@@ -100,3 +100,11 @@ export type StudySummary = Schemas["StudySummary"];
 export type Study = Schemas["Study"];
 export type StudyRun = Schemas["StudyRun"];
 export type StudyScenario = Schemas["StudyScenario"];
+
+export type Me = Schemas["Me"];
+export type Role = Schemas["Role"];
+export type SignedIn = Schemas["SignedIn"];
+export type Person = Schemas["Person"];
+export type Invitation = Schemas["Invitation"];
+export type InvitationCreate = Schemas["InvitationCreate"];
+export type InvitationMade = Schemas["InvitationMade"];

@@ -21,7 +21,7 @@ describe("who sits here", () => {
     answering({ login: true, name: "bob", role: "trainer" });
     const me = await import("../src/me");
     await me.findOut();
-    expect([me.ME, me.SIGNED_IN]).toEqual(["bob", true]);
+    expect([me.ME, me.ROLE, me.LOGIN]).toEqual(["bob", "trainer", true]);
     const { asked } = await import("../src/together");
     const { experiment, proposal } = await import("./messages");
     const rule = experiment({ aggregation: "majority" });
@@ -33,7 +33,7 @@ describe("who sits here", () => {
     answering({ login: false, name: "local", role: "owner" });
     const me = await import("../src/me");
     await me.findOut();
-    expect([me.ME, me.SIGNED_IN]).toEqual(["ann", false]);
+    expect([me.ME, me.LOGIN]).toEqual(["ann", false]);
     vi.stubGlobal(
       "fetch",
       vi.fn(async () => Promise.reject(new TypeError())),

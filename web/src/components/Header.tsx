@@ -1,5 +1,6 @@
 import type { ReactNode } from "react";
 import { t } from "../i18n";
+import { LOGIN, may } from "../me";
 import { Link } from "../router";
 import { Sprout } from "./icons";
 import { Preferences } from "./Preferences";
@@ -25,6 +26,11 @@ export function Header(props: { back?: boolean; stop?: boolean; experiment?: num
       {!props.stop && (
         <Link to="/studies" className="crumb">
           {t("header.studies")}
+        </Link>
+      )}
+      {!props.stop && LOGIN && may("operator") && (
+        <Link to="/people" className="crumb" testId="to-people">
+          {t("people.title")}
         </Link>
       )}
       <span className="spring" />

@@ -1,5 +1,6 @@
 // The newest proposals as a strip of pictures with one's own labels; a press opens one, to look again or to correct.
 import { type ReactNode, useState } from "react";
+import { at } from "../base";
 import { type Entry, FILTERS, type Filter, type History, shown } from "../history";
 import { skillName, t, taskWords } from "../i18n";
 import { signed } from "../i18n/numbers";
@@ -23,7 +24,14 @@ export function Picture(props: { view: View; judged?: boolean; overlay?: boolean
   const { view, judged, overlay = true } = props;
   return (
     <div className="pictured" style={{ aspectRatio: `${view.width} / ${view.height}` }}>
-      <img src={view.url} alt="" loading="lazy" decoding="async" width={view.width} height={view.height} />
+      <img
+        src={at(view.url)}
+        alt=""
+        loading="lazy"
+        decoding="async"
+        width={view.width}
+        height={view.height}
+      />
       {overlay && (
         <OverlayDrawing
           overlay={view.overlay}
@@ -42,7 +50,14 @@ export function Thumb({ view }: { view: View }) {
   const { dot, line } = view.overlay;
   return (
     <>
-      <img src={view.url} alt="" loading="lazy" decoding="async" width={view.width} height={view.height} />
+      <img
+        src={at(view.url)}
+        alt=""
+        loading="lazy"
+        decoding="async"
+        width={view.width}
+        height={view.height}
+      />
       <svg viewBox={`0 0 ${view.width} ${view.height}`} aria-hidden="true">
         {line && (
           <path

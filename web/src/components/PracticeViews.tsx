@@ -1,6 +1,7 @@
 // The pictures of a practice proposal. The overlay comes only once its own picture is on the screen.
 
 import { useEffect, useState } from "react";
+import { at } from "../base";
 import { skillName, t } from "../i18n";
 import type { Overlay, PracticeCard } from "../wire";
 import { OverlayDrawing } from "./OverlayDrawing";
@@ -31,7 +32,7 @@ export function PracticeViews({ card, overlays, right, onDrawn }: PracticeViewsP
           data-right={overlays !== null}
         >
           <img
-            src={view.url}
+            src={at(view.url)}
             alt={t("camera.still", { camera: view.camera })}
             onLoad={() => setLoaded((known) => [...known, view.camera])}
           />

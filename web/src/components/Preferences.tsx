@@ -1,7 +1,8 @@
 // How the page looks and speaks in this browser: colours and language, remembered.
 import { useState } from "react";
+import { signOut } from "../http";
 import { chooseLanguage, LANGUAGES, nameOf, t, useLanguage } from "../i18n";
-import { isName, ME, rename, SIGNED_IN } from "../me";
+import { isName, LOGIN, ME, ROLE, rename, signedOut } from "../me";
 import { change, RESTS, useSettings } from "../settings";
 import { chooseTheme, THEMES, useTheme } from "../theme";
 import { Dialog } from "./Dialog";
@@ -35,6 +36,21 @@ function Name() {
   );
 }
 
+/** Who is signed in, and the way out. */
+function Account() {
+  const leave = () => void signOut().then(signedOut, signedOut);
+  return (
+    <div className="name">
+      <p data-testid="account">
+        {t("people.youAre", { name: ME, role: t(`people.role_${ROLE ?? "viewer"}`) })}
+      </p>
+      <button type="button" className="button" onClick={leave} data-testid="sign-out">
+        {t("people.signOut")}
+      </button>
+    </div>
+  );
+}
+
 function Panel({ onClose }: { onClose: () => void }) {
   const chosen = useTheme();
   const language = useLanguage();
@@ -59,7 +75,7 @@ function Panel({ onClose }: { onClose: () => void }) {
             ))}
           </fieldset>
         </div>
-        {!SIGNED_IN && <Name />}
+        {LOGIN ? <Account /> : <Name />}
         <Choice
           label={t("settings.language")}
           name="language"

@@ -1,5 +1,6 @@
 // The verbs that an experiment's state allows (DESIGN.md section 6).
 import { t } from "../i18n";
+import { may } from "../me";
 import type { Experiment, Verb } from "../wire";
 
 type Shown = Exclude<Verb, "reset" | "halt" | "rearm">;
@@ -19,7 +20,10 @@ export function Verbs(props: { experiment: Experiment; busy: boolean; onVerb: (v
     <div className="actions">
       {ALLOWED[experiment.lifecycle].map((verb) => {
         const moves = verb === "start" || verb === "resume";
-        const blocked = props.busy || (moves && (experiment.halted || experiment.phase === "evaluating"));
+        const blocked =
+          props.busy ||
+          !may("operator") ||
+          (moves && (experiment.halted || experiment.phase === "evaluating"));
         return (
           <button
             key={verb}
