@@ -2,22 +2,32 @@
 
 from __future__ import annotations
 
+import asyncio
+import logging
 from datetime import timedelta
 
 from starlette.requests import HTTPConnection
 from starlette.responses import Response
 
 from server.errors import ServiceError
+from server.presence import Presence
 from server.principal import LOCAL, Principal
 from server.rates import Rates
 from server.schemas_people import SignedIn, SignIn
 from server.settings import Settings
 from server.store import Store
+from server.store_errors import StoreError
 from server.store_people import WrongToken
 
 COOKIE = "seed_session"
 """Of the page. HttpOnly: no script reads it; SameSite: no other site sends it."""
 SAFE_METHODS = {"GET", "HEAD", "OPTIONS"}
+UNCOUNTED = frozenset({"halt_experiment"})
+"""Routes that somebody who is let in may ask for at any rate: an emergency stop never waits."""
+LOOK_EVERY = 2.0
+"""Seconds between two looks at whether those who have a stream open may still come in."""
+
+log = logging.getLogger(__name__)
 
 
 class Doors:
@@ -38,23 +48,41 @@ class Doors:
         """
         if not self.login:
             return LOCAL
-        address = _address(connection)
-        self._rates.ask("address", address)
         scheme, _, bearer = connection.headers.get("authorization", "").partition(" ")
         token = bearer.strip() if scheme.lower() == "bearer" else ""
         if not token:
             token = connection.cookies.get(COOKIE, "")
             if token:
                 _must_be_of_a_page(connection)
-        if not token:
-            return None
-        self._rates.must_be_patient(address)
-        who = await self._people.who(token[:200])
+        # first who it is: a stranger at the same address, or a program with an old token, must not shut out the others
+        who = await self._people.who(token[:200]) if token else None
         if who is None:
-            self._rates.failed(address)
-            return None
-        self._rates.ask("person", str(who.person_id))
+            address = _address(connection)
+            self._rates.ask("address", address)
+            if token:
+                self._rates.must_be_patient(address)
+                self._rates.failed(address)
+        elif connection.scope["route"].name not in UNCOUNTED:
+            self._rates.ask("person", str(who.person_id))
         return who
+
+    async def watch(self, presence: Presence) -> None:
+        """Close the streams of those whose access runs out, or was ended by another process; until it is cancelled.
+
+        What ends here is cut off at once by whoever ends it. This also finds a stream that was just opening.
+        """
+        while self.login:
+            await asyncio.sleep(LOOK_EVERY)
+            ids = {visit.who.session_id for visit in presence.streams() if visit.who.session_id is not None}
+            if not ids:
+                continue
+            try:
+                known = await self._people.let_in(ids)
+            except StoreError as error:
+                log.warning("whether those who are here still may be can't be told: %s. %s", error, error.remedy)
+                continue
+            # who came in meanwhile was let in a moment ago, and is looked at the next time
+            presence.cut_off(lambda who: who.session_id in ids and known.get(who.session_id) != who)  # noqa: B023
 
     async def sign_in(self, connection: HTTPConnection, body: SignIn, response: Response) -> SignedIn:
         """Let somebody in; the page gets its cookie, a program its token.

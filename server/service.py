@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import fcntl
 import logging
 import os
@@ -92,9 +93,12 @@ async def opened(settings: Settings, listener: Publisher | None = None) -> Async
             hub = Hub(store, settings, measuring)
             await hub.start()
             critics = Critics(store, settings, hub)
+            doors = Doors(settings, store)
+            watching = asyncio.create_task(doors.watch(hub.presence), name="doors")
             try:
-                yield Service(settings, store, rooms, hub, Doors(settings, store), critics)
+                yield Service(settings, store, rooms, hub, doors, critics)
             finally:
+                watching.cancel()
                 await critics.close()
                 await measuring.close()
                 try:

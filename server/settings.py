@@ -56,7 +56,8 @@ class Settings(BaseSettings):
         str,
         Field(
             pattern=r"^[1-9][0-9]{0,8}/(second|minute|hour)$",
-            description="with a login, requests of one person, and beside that of one address",
+            description="with a login, requests of one person, and of all strangers at one address; an emergency "
+            "stop is always taken",
         ),
     ] = "6000/minute"
     allowed_hosts: Annotated[

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import secrets
+from collections.abc import Collection
 from datetime import UTC, datetime, timedelta
 
-from sqlalchemy import or_, select
+from sqlalchemy import Select, or_, select
 from sqlalchemy.orm import Session
 
 from server import schemas_people as wire
@@ -56,6 +57,14 @@ class PeopleStore:
         def find(session: Session) -> Principal | None:
             row = _active_session(session, key)
             return None if row is None else _principal(row)
+
+        return await self._database.read(find)
+
+    async def let_in(self, sessions: Collection[int]) -> dict[int, Principal]:
+        """Those of these sessions that still let somebody in, and who that is by now."""
+
+        def find(session: Session) -> dict[int, Principal]:
+            return {row.id: _principal(row) for row in session.scalars(_active().where(SessionRow.id.in_(sessions)))}
 
         return await self._database.read(find)
 
@@ -263,16 +272,20 @@ class PeopleStore:
         return await self._database.write(revoke)
 
 
-def _active_session(session: Session, key: str) -> SessionRow | None:
+def _active() -> Select[SessionRow]:
+    """Sessions that let somebody in now."""
     at = _now()
-    query = (
+    return (
         select(SessionRow)
         .join(PersonRow)
-        .where(SessionRow.digest == key, SessionRow.revoked_at.is_(None), PersonRow.revoked_at.is_(None))
+        .where(SessionRow.revoked_at.is_(None), PersonRow.revoked_at.is_(None))
         .where(or_(SessionRow.expires_at.is_(None), SessionRow.expires_at > at))
         .where(or_(PersonRow.access_until.is_(None), PersonRow.access_until > at))
     )
-    return session.scalars(query).one_or_none()
+
+
+def _active_session(session: Session, key: str) -> SessionRow | None:
+    return session.scalars(_active().where(SessionRow.digest == key)).one_or_none()
 
 
 def _open_invitation(session: Session, key: str) -> InvitationRow | None:

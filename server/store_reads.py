@@ -235,10 +235,14 @@ class Reads:
         items, after = await self._page(select(row), row.id, wire.trainer, cursor, limit, newest_first=False)
         return TrainerPage(items=items, next_cursor=after)
 
-    async def events(self, experiment_id: int, cursor: str | None = None, limit: int = 50) -> schemas_records.EventPage:
-        """The journal, oldest first."""
+    async def events(
+        self, experiment_id: int, cursor: str | None = None, limit: int = 50, *, answers: bool = True
+    ) -> schemas_records.EventPage:
+        """The journal, oldest first. answers: also the lines that tell which answers are known, and what they are."""
         row = models.EventRow
         query = select(row).where(row.experiment_id == experiment_id)
+        if not answers:
+            query = query.where(row.kind.not_in(("gold_marked", "gold_unmarked")))
         items, after = await self._page(query, row.id, wire.event, cursor, limit, of=experiment_id, newest_first=False)
         return schemas_records.EventPage(items=items, next_cursor=after)
 

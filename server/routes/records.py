@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from fastapi import APIRouter
 
-from server.routes.dependencies import Cursor, Id, Limit, Running, errors
+from server.principal import Role
+from server.routes.dependencies import Cursor, Id, Limit, Running, Who, errors
 from server.schemas import ExecutionPage
 from server.schemas_catalogue import TrainerPage
 from server.schemas_records import CheckpointPage, EvaluationPage, EventPage, MetricPage
@@ -28,9 +29,12 @@ async def list_metrics(service: Running, experiment_id: Id, cursor: Cursor = Non
 
 
 @router.get("/experiments/{experiment_id}/events", responses=LISTED)
-async def list_events(service: Running, experiment_id: Id, cursor: Cursor = None, limit: Limit = 50) -> EventPage:
-    """The journal, oldest first."""
-    return await service.store.events(experiment_id, cursor, limit)
+async def list_events(
+    service: Running, who: Who, experiment_id: Id, cursor: Cursor = None, limit: Limit = 50
+) -> EventPage:
+    """The journal, oldest first. Which answers are known is told to operators only."""
+    answers = who.role.covers(Role.OPERATOR)
+    return await service.store.events(experiment_id, cursor, limit, answers=answers)
 
 
 @router.get("/experiments/{experiment_id}/evaluations", responses=LISTED)

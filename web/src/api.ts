@@ -1060,7 +1060,7 @@ export interface paths {
         };
         /**
          * List Events
-         * @description The journal, oldest first.
+         * @description The journal, oldest first. Which answers are known is told to operators only.
          */
         get: operations["list_events"];
         put?: never;
