@@ -6,11 +6,12 @@ import asyncio
 import logging
 from collections import defaultdict
 from datetime import UTC, datetime
-from typing import Literal
+from typing import Any, Literal
 
 from robot_adapters import registry
 from server import auto_approval, catalogue
 from server.desk import Desk
+from server.guiding import guide
 from server.lifecycle import MOVING
 from server.messages import EvaluationChanged, ExecutionEnded, ExperimentChanged, RobotTold, Snapshot
 from server.presence import Presence
@@ -228,6 +229,11 @@ class Hub:
             runner = await self._runner(experiment_id)
             await runner.tend(what)
             return runner.experiment
+
+    async def guide(self, experiment_id: int, step: str, **arguments: Any) -> dict[str, Any]:
+        """One step of a calibration of the cameras; see `server.guiding`."""
+        async with self._verbs[experiment_id]:
+            return await guide(await self._runner(experiment_id), step, **arguments)
 
     async def update(self, experiment_id: int, body: ExperimentUpdate) -> Experiment:
         """Change what may change live.

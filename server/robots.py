@@ -121,6 +121,10 @@ class Robot:
         """Clear a real arm's reflex."""
         self._hear(await self._ask("recover", QUICK))
 
+    async def guide(self, step: str, **arguments: Any) -> dict[str, Any]:
+        """One step of a calibration of its cameras, as the worker names them."""
+        return await self._ask(step, **arguments)
+
     async def _build(self, worker: Worker) -> None:
         deadline, experiment = self._settings.robot_deadline, self._experiment
         if self._stops.latched:

@@ -79,6 +79,10 @@ NEEDS: dict[str, Need] = {
     "leave": OPERATOR,
     "recover": OPERATOR,
     "home": OPERATOR,
+    "begin_camera_calibration": OPERATOR,
+    "look_for_the_board": OPERATOR,
+    "solve_camera_calibration": OPERATOR,
+    "store_camera_calibration": OPERATOR,
     # proposals and clicks
     "stream": VIEWER,
     "next_proposal": TRAINER,

@@ -34,8 +34,9 @@ from robot_adapters.franka import FrankaSettings, connecting
 from robot_adapters.franka.arm import CONTROL_HZ
 from robot_adapters.franka.backend import WORDS, ArmFault, Mode
 from robot_adapters.franka.dead_man import DeadMan
-from robot_adapters.franka.eyes import EyesFactory, Hand, Sight
+from robot_adapters.franka.eyes import Calibrated, EyesFactory, Hand, Sight
 from robot_adapters.franka.limits import Refused
+from robot_adapters.guiding import Guide
 from robot_adapters.projection import overlay
 from robot_adapters.registry import task as task_by_name
 from robot_adapters.skills import GRASPED_WIDTH, clear_yaw, run_skill
@@ -167,6 +168,17 @@ class FrankaAdapter:
             self.arm.recover()
         self._observation = None
 
+    def guide(self, *, square: float, wanted: int) -> Guide:
+        """Begin to calibrate the cameras. Nothing moves: people guide the arm (`CalibratesCameras`).
+
+        Raises:
+            Unavailable: these eyes can't be calibrated.
+        """
+        if not isinstance(self._eyes, Calibrated):
+            raise Unavailable("what sees here has no cameras to calibrate", remedy="use the eyes `perception`")
+        self._observation = None
+        return self._eyes.guide(self._hand, square=square, wanted=wanted)
+
     def overlays(self, call: SkillCall) -> Mapping[str, CameraOverlay]:
         """The call drawn for every camera, with the yaw that the gripper would take.
 
@@ -265,6 +277,13 @@ class FrankaAdapter:
         else:
             self.arm.end()
         return end, steps, ()
+
+    def _hand(self) -> Array:
+        """base_from_hand (4, 4) as the arm says it, also while somebody guides it."""
+        state = self.arm.look()
+        pose = np.eye(4)
+        pose[:3, :3], pose[:3, 3] = state.rotation, state.position
+        return pose
 
     def _must_be_well(self) -> None:
         try:

@@ -5,11 +5,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from robot_adapters.base import Array, CameraCalibration, CameraFrame
+from robot_adapters.guiding import Guide
 
 
 @dataclass(frozen=True)
@@ -69,6 +70,14 @@ class Eyes(Protocol):
 
     def close(self) -> None:
         """Release the cameras."""
+
+
+@runtime_checkable
+class Calibrated(Protocol):
+    """What eyes have beside `Eyes` if an operator can calibrate them."""
+
+    def guide(self, hand: Callable[[], Array], *, square: float, wanted: int) -> Guide:
+        """Begin a calibration. hand: base_from_hand (4, 4) now. square: m, of the board. wanted: poses a camera."""
 
 
 class EyesFactory(Protocol):

@@ -6,6 +6,7 @@ own, which is looked at between any two set-points: it never waits behind a skil
 
 from __future__ import annotations
 
+import base64
 import contextlib
 import dataclasses
 import json
@@ -18,6 +19,7 @@ from typing import Any
 
 from robot_adapters import registry
 from robot_adapters.base import Adapter, AdapterError, EndReason, Observation, SkillCall, TellsTelemetry, Tended
+from robot_adapters.guiding import CalibratesCameras, Guide, GuideLook, GuideResult
 from server.images import Images
 from server.workers.channel import FrameSender, Pipes, Refusal, StopLatch, answer, open_pipes
 
@@ -50,6 +52,7 @@ class Robot:
         self._attended: float | None = None
         self._told: dict[str, Any] | None = None
         self._told_at = 0.0
+        self._guide: Guide | None = None
 
     @property
     def adapter(self) -> Adapter:
@@ -162,6 +165,27 @@ class Robot:
         self._tended().recover()
         return {"telemetry": telemetry_of(self.adapter)}
 
+    def guide(self, *, square: float, wanted: int) -> dict[str, Any]:
+        """Begin to calibrate a real robot's cameras; one that was under way is forgotten. Nothing moves."""
+        if not isinstance(self.adapter, CalibratesCameras):
+            raise Refusal("this robot's cameras aren't calibrated by hand", remedy="see its adapter's documentation")
+        self._guide = self.adapter.guide(square=square, wanted=wanted)
+        return _looked(self._guide.look(take=False))
+
+    def guide_look(self, *, take: bool) -> dict[str, Any]:
+        """See the board, and keep the pose if asked to."""
+        return _looked(self._guided().look(take=take))
+
+    def guide_solve(self) -> dict[str, Any]:
+        """Calculate where the cameras are."""
+        return _result(self._guided().solve())
+
+    def guide_store(self) -> dict[str, Any]:
+        """Keep that, and be done."""
+        result = self._guided().store()
+        self._guide = None
+        return _result(result)
+
     def refresh(self) -> None:
         """Tell how a real robot is while nothing is asked of it: at once where that has changed."""
         if not isinstance(self._adapter, Tended):
@@ -189,6 +213,11 @@ class Robot:
     def _must_stop(self) -> bool:
         """Whether a motion must end: by a stop, or because nobody attends a real robot any more."""
         return self._latch.stopped() or (self._attended is not None and self._latch.forsaken(self._attended))
+
+    def _guided(self) -> Guide:
+        if self._guide is None:
+            raise Refusal("no calibration is under way", remedy="begin one")
+        return self._guide
 
     def _tended(self) -> Tended:
         if not isinstance(self.adapter, Tended):
@@ -248,6 +277,28 @@ class _Video:
         self._frames.send(header | {"execution_id": self._execution}, frame.jpeg)
 
 
+def _looked(look: GuideLook) -> dict[str, Any]:
+    cameras = [
+        dataclasses.asdict(seen) | {"jpeg": base64.b64encode(seen.jpeg).decode("ascii")} for seen in look.cameras
+    ]
+    return dataclasses.asdict(look) | {"cameras": cameras}
+
+
+def _result(result: GuideResult) -> dict[str, Any]:
+    cameras = [
+        {
+            "camera": found.camera,
+            "error_mm": round(1000 * found.error, 2),
+            "poses": found.poses,
+            "left_out": found.left_out,
+            "good": found.good,
+        }
+        for found in result.cameras
+    ]
+    apart = None if result.apart is None else round(1000 * result.apart, 2)
+    return {"cameras": cameras, "apart_mm": apart, "stored": result.stored}
+
+
 def telemetry_of(adapter: Adapter) -> dict[str, Any] | None:
     """What it tells of itself, if it does."""
     return dataclasses.asdict(adapter.telemetry()) if isinstance(adapter, TellsTelemetry) else None
@@ -256,7 +307,10 @@ def telemetry_of(adapter: Adapter) -> dict[str, Any] | None:
 def serve(pipes: Pipes) -> None:
     """Answer commands until the server is gone."""
     robot = Robot(StopLatch(pipes.stop), FrameSender(pipes.frames))
-    names = ("build", "reset", "observe", "overlay", "execute", "home", "recover", "rearm")
+    names = (
+        *("build", "reset", "observe", "overlay", "execute", "home", "recover", "rearm"),
+        *("guide", "guide_look", "guide_solve", "guide_store"),
+    )
     handlers = {name: getattr(robot, name) for name in names}
     with contextlib.suppress(BrokenPipeError, ConnectionResetError):
         while (message := _next(pipes, robot)) is not None:

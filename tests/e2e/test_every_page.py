@@ -22,6 +22,7 @@ PATHS = {
     "results": "/experiments/{id}/results",
     "gallery": "/experiments/{id}/gallery",
     "critic": "/experiments/{id}/critic",
+    "cameras": "/experiments/{id}/cameras",
     "episode": "/experiments/{id}/episodes/1",
     "compare": "/compare?experiment={id}",
     "studies": "/studies",
@@ -51,8 +52,8 @@ def experiment(service: LiveService) -> int:
 def test_every_page_of_the_code_is_looked_at() -> None:
     loaded = set(re.findall(r"pages/(\w+)Page\"", ENTRY.read_text("utf-8")))
     assert loaded == {
-        "Compare", "Critic", "Episode", "Experiments", "Gallery", "NewExperiment", "People", "Practice", "Results",
-        "SignIn", "Studies", "Study", "Trainer",
+        "Cameras", "Compare", "Critic", "Episode", "Experiments", "Gallery", "NewExperiment", "People", "Practice",
+        "Results", "SignIn", "Studies", "Study", "Trainer",
     }  # fmt: skip
 
 

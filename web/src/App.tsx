@@ -22,6 +22,7 @@ const EpisodePage = later(async () => (await import("./pages/EpisodePage")).Epis
 const CriticPage = later(async () => (await import("./pages/CriticPage")).CriticPage);
 const SignInPage = later(async () => (await import("./pages/SignInPage")).SignInPage);
 const PeoplePage = later(async () => (await import("./pages/PeoplePage")).PeoplePage);
+const CamerasPage = later(async () => (await import("./pages/CamerasPage")).CamerasPage);
 const ComparePage = later(async () => (await import("./pages/ComparePage")).ComparePage);
 
 /** What of an address belongs to one experiment, and its page. */
@@ -30,6 +31,7 @@ const OF_EXPERIMENT = {
   results: ResultsPage,
   gallery: GalleryPage,
   critic: CriticPage,
+  cameras: CamerasPage,
 } as const;
 
 function Page({ path }: { path: string }) {

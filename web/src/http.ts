@@ -20,6 +20,8 @@ import type {
   ExperimentPage,
   ExperimentUpdate,
   Feedback,
+  GuideOutcome,
+  GuideStep,
   HistoryEntry,
   HistoryPage,
   Incident,
@@ -203,6 +205,19 @@ export const leave = (id: number, operator: string) =>
 
 export const tend = (id: number, what: "home" | "recover") =>
   request<Experiment>("POST", `/experiments/${id}/${what}`);
+
+/** One calibration of the robot's cameras, step by step. */
+const guiding = (id: number) => `/experiments/${id}/camera-calibration`;
+
+export const guide = (id: number, square_mm: number, wanted: number) =>
+  request<GuideStep>("POST", guiding(id), { square_mm, wanted });
+
+export const guideLook = (id: number, take: boolean) =>
+  request<GuideStep>("POST", `${guiding(id)}/looks`, { take });
+
+export const guideSolve = (id: number) => request<GuideOutcome>("POST", `${guiding(id)}/solution`);
+
+export const guideStore = (id: number) => request<GuideOutcome>("PUT", guiding(id));
 
 export const setMode = (id: number, mode: Mode) =>
   request<Experiment>("PATCH", `/experiments/${id}`, { mode });

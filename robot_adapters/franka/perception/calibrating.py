@@ -35,6 +35,18 @@ GOOD = 0.003
 BAD = 0.006
 """m of error beyond which a calibration isn't stored: fingers forgive 12 mm, and others need some of them."""
 
+ADVICE = {
+    "taken": "Taken. Tilt the board in another way, and somewhere else.",
+    "enough": "Enough poses.",
+    "unseen": "No camera sees the board: turn it towards them, and keep fingers off the markers.",
+    "one_axis": "So far it was turned about one axis only: tilt it about another, by 20 degrees and more.",
+    "moving": "Hold the arm still.",
+    "unseen_by": "Camera {camera} doesn't see the board: turn it a little more towards it.",
+    "ready": "Hold it still.",
+    "known": "This pose is taken: tilt the board in another way.",
+}
+"""What the guide says, by its key."""
+
 HandPose = Callable[[], Array]
 """base_from_hand (4, 4) now."""
 
@@ -49,12 +61,25 @@ class TooInaccurate(AdapterError):
 
 @dataclass(frozen=True)
 class Step:
-    """One look of the session. corners: camera -> (n, 2) pixels. taken: camera -> poses so far. said: what to do."""
+    """One look of the session. corners: camera -> (n, 2) pixels. taken: camera -> poses so far.
+
+    advice: what to do next, a key of `ADVICE`. camera: which one it is about, or empty.
+    """
 
     corners: Mapping[str, Array]
     taken: Mapping[str, int]
-    said: str
-    done: bool
+    advice: str
+    camera: str = ""
+
+    @property
+    def said(self) -> str:
+        """The advice in words."""
+        return ADVICE[self.advice].format(camera=self.camera)
+
+    @property
+    def done(self) -> bool:
+        """Whether there are poses enough."""
+        return self.advice == "enough"
 
 
 @dataclass
@@ -70,8 +95,8 @@ class Session:
     _hands: list[Array] = field(default_factory=list)
     _recorded: bool = False
 
-    def step(self, hand: HandPose) -> Step:
-        """Look once; take the pose if it is worth it.
+    def step(self, hand: HandPose, *, take: bool = True) -> Step:
+        """Look once; unless told not to, take the pose if it is worth it.
 
         Raises:
             CameraLost: a camera gives no pictures.
@@ -79,13 +104,13 @@ class Session:
         before = hand()
         self._look()
         corners = {name: found for name, p in self.pictures.items() if (found := self.board.find(p.colour)) is not None}
-        still = _apart(before, hand(), STILL)
+        moving = _apart(before, hand(), STILL)
         new = all(_apart(before, taken, NEW) for taken in self._hands)
         wanting = [name for name in self.watches if len(self._sightings.get(name, [])) < self.wanted]
-        if not still and new and any(name in corners for name in wanting):
+        if take and not moving and new and any(name in corners for name in wanting):
             self._take(before, corners)
-            return self._told(corners, "Taken. Tilt the board in another way, and somewhere else.")
-        return self._told(corners, self._advice(corners, moving=still, new=new))
+            return self._told(corners, "taken")
+        return self._told(corners, *self._advice(corners, moving=moving, new=new))
 
     def replay(self, poses: Sequence[Array], told: Callable[[Step], None] = lambda _: None) -> None:
         """Take a recorded session: the n-th picture of every camera belongs to the n-th pose.
@@ -98,7 +123,7 @@ class Session:
             self._look()
             corners = {n: found for n, p in self.pictures.items() if (found := self.board.find(p.colour)) is not None}
             self._take(pose, corners)
-            told(self._told(corners, "Taken." if corners else "The board isn't seen."))
+            told(self._told(corners, "taken" if corners else "unseen"))
 
     def solve(self) -> Mapping[str, HandEye]:
         """Where every camera is.
@@ -118,9 +143,11 @@ class Session:
         """Write the calibrations with what every camera sees now; the files. Take board and arm away before.
 
         Raises:
-            TooInaccurate: a result is too far off; nothing is stored.
+            NotEnough: nothing is calculated yet. TooInaccurate: a result is too far off. Nothing is stored then.
             CameraLost: a camera gives no pictures.
         """
+        if not self.results:
+            raise hand_eye.NotEnough("nothing is calculated yet", remedy="take the poses, then calculate")
         for name, result in self.results.items():
             if result.error > BAD:
                 raise TooInaccurate(
@@ -156,22 +183,23 @@ class Session:
         for name, found in corners.items():
             self._sightings.setdefault(name, []).append(Sighting(hand, found))
 
-    def _told(self, corners: Mapping[str, Corners], said: str) -> Step:
+    def _told(self, corners: Mapping[str, Corners], advice: str, camera: str = "") -> Step:
         taken = {name: len(self._sightings.get(name, [])) for name in self.watches}
-        done = min(taken.values()) >= self.wanted
-        return Step({name: c.pixels for name, c in corners.items()}, taken, "Enough poses." if done else said, done)
+        if min(taken.values()) >= self.wanted:
+            advice, camera = "enough", ""
+        return Step({name: c.pixels for name, c in corners.items()}, taken, advice, camera)
 
-    def _advice(self, corners: Mapping[str, Corners], *, moving: bool, new: bool) -> str:
+    def _advice(self, corners: Mapping[str, Corners], *, moving: bool, new: bool) -> tuple[str, str]:
         if not corners:
-            return "No camera sees the board: turn it towards them, and keep fingers off the markers."
+            return "unseen", ""
         if len(self._hands) >= 5 and hand_eye.turns(self._hands)[1] < hand_eye.TURNED:
-            return "So far it was turned about one axis only: tilt it about another, by 20 degrees and more."
+            return "one_axis", ""
         if moving:
-            return "Hold the arm still."
+            return "moving", ""
         unseen = [n for n in self.watches if n not in corners and len(self._sightings.get(n, [])) < self.wanted]
         if unseen:
-            return f"Camera {unseen[0]} doesn't see the board: turn it a little more towards it."
-        return "Hold it still." if new else "This pose is taken: tilt the board in another way."
+            return "unseen_by", unseen[0]
+        return ("ready" if new else "known"), ""
 
 
 def read_poses(path: Path) -> list[Array]:

@@ -14,9 +14,12 @@ from numpy.typing import NDArray
 from robot_adapters.base import CameraCalibration, CameraFrame, Unavailable
 from robot_adapters.franka.eyes import Hand, Sight
 from robot_adapters.franka.perception import PerceptionSettings, calibration, tagging
+from robot_adapters.franka.perception.board import Board
+from robot_adapters.franka.perception.calibrating import HandPose, Session
 from robot_adapters.franka.perception.calibration import Calibration
-from robot_adapters.franka.perception.camera import CameraLost, Picture, open_camera
+from robot_adapters.franka.perception.camera import HEIGHT, WIDTH, CameraLost, Picture, open_camera
 from robot_adapters.franka.perception.colours import find_by_colour
+from robot_adapters.franka.perception.guided import Guided
 from robot_adapters.franka.perception.locating import Found, locate
 from robot_adapters.franka.perception.moved import Reference, Standing
 from robot_adapters.franka.perception.rays import View
@@ -36,8 +39,10 @@ class _Eye:
     """One camera: what it is read with, how it stands, and its picture of the last look."""
 
     watch: Watch
-    calibration: Calibration
-    reference: Reference
+    source: str
+    calibration: Calibration | None
+    """None where it has never been calibrated."""
+    reference: Reference | None
     detector: TagDetector
     standing: Standing
     stamp: float
@@ -53,7 +58,7 @@ class Perception:
         """Open the cameras, and see whether they stand where they were calibrated.
 
         Raises:
-            Unavailable: a camera can't be opened, or isn't calibrated.
+            Unavailable: a camera can't be opened, or no camera is named or calibrated.
             BadTags: the tag file doesn't fit the task.
         """
         self._settings = settings
@@ -78,12 +83,13 @@ class Perception:
             self.close()
             raise
         self.cameras = tuple(self._eyes)
-        first = next(iter(self._eyes.values())).calibration.view.lens
-        self.image_size = (first.width, first.height)
+        pictures = [eye.picture for eye in self._eyes.values() if eye.picture is not None]
+        height, width = pictures[0].colour.shape[:2] if pictures else (HEIGHT, WIDTH)
+        self.image_size = (width, height)
 
     def calibrations(self) -> Mapping[str, CameraCalibration]:
         """See `Eyes`."""
-        return {name: eye.calibration.view.calibration() for name, eye in self._eyes.items()}
+        return {name: eye.calibration.view.calibration() for name, eye in self._eyes.items() if eye.calibration}
 
     def refusal(self) -> str | None:
         """See `Eyes`. While something is wrong, looks once a second whether it still is."""
@@ -120,7 +126,7 @@ class Perception:
         except CameraLost as lost:
             raise Unavailable(str(lost), remedy=lost.remedy) from lost
         quality = self._settings.jpeg_quality if still else min(self._settings.jpeg_quality, 70)
-        straight = _straight(picture.colour, eye.calibration.view)
+        straight = _straight(picture.colour, eye.calibration.view) if eye.calibration else picture.colour
         encoded = cv2.imencode(".jpg", straight[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, quality])[1]
         height, width = straight.shape[:2]
         return CameraFrame(camera, encoded.tobytes(), width, height, picture.taken_at)
@@ -129,12 +135,21 @@ class Perception:
         """Look whether every camera stands where it was calibrated; one that was calibrated again is read anew."""
         self._checked = time.monotonic()
         for name, eye in self._eyes.items():
-            stamp = (self._where / f"{name}.json").stat().st_mtime
-            if stamp != eye.stamp:
-                eye.calibration = calibration.load(name, self._where)
-                eye.reference = Reference(eye.calibration.reference, eye.calibration.fixed_tags)
-                eye.stamp = stamp
+            if self._stamp(name) not in {0.0, eye.stamp}:
+                self._read_calibration(name, eye)
         self._see(after=0.0)
+
+    def guide(self, hand: HandPose, *, square: float, wanted: int) -> Guided:
+        """See `Calibrated`. What is stored counts at once."""
+        watches = {name: eye.watch for name, eye in self._eyes.items()}
+        sources = {name: eye.source for name, eye in self._eyes.items()}
+
+        def stored() -> None:
+            for name, eye in self._eyes.items():
+                self._read_calibration(name, eye)
+            self.recheck()
+
+        return Guided(Session(watches, Board(square), wanted), hand, sources, self._where, stored)
 
     def close(self) -> None:
         """See `Eyes`."""
@@ -143,27 +158,39 @@ class Perception:
         self._pool.shutdown()
 
     def _eye(self, name: str, source: str) -> _Eye:
-        read = calibration.load(name, self._where)
-        watch = Watch(name, lambda: open_camera(source or read.source))
-        reference = Reference(read.reference, read.fixed_tags)
-        stamp = (self._where / f"{name}.json").stat().st_mtime
-        return _Eye(watch, read, reference, TagDetector(), Standing(True, None, "not looked at yet"), stamp)
+        # a camera that is named may be calibrated from the page; until then it refuses everything
+        read = None if source and not self._stamp(name) else calibration.load(name, self._where)
+        opened = source or (read.source if read is not None else "")
+        reference = None if read is None else Reference(read.reference, read.fixed_tags)
+        standing = Standing(True, None, "not looked at yet")
+        watch = Watch(name, lambda: open_camera(opened))
+        return _Eye(watch, opened, read, reference, TagDetector(), standing, self._stamp(name))
+
+    def _stamp(self, name: str) -> float:
+        """When the calibration's file was written; 0 where there is none."""
+        path = self._where / f"{name}.json"
+        return path.stat().st_mtime if path.exists() else 0.0
+
+    def _read_calibration(self, name: str, eye: _Eye) -> None:
+        eye.calibration = calibration.load(name, self._where)
+        eye.reference = Reference(eye.calibration.reference, eye.calibration.fixed_tags)
+        eye.stamp = self._stamp(name)
 
     def _see(self, *, after: float) -> dict[str, tuple[View, dict[int, Tag]]]:
         """The tags in every camera's newest picture; notes how the cameras stand."""
         waiting = {name: self._pool.submit(_read, eye, after) for name, eye in self._eyes.items()}
         seen = {}
         for name, reading in waiting.items():
-            tags = reading.result()
-            if tags is not None:
-                seen[name] = (self._eyes[name].calibration.view, {tag.number: tag for tag in tags})
+            tags, known = reading.result(), self._eyes[name].calibration
+            if tags is not None and known is not None:
+                seen[name] = (known.view, {tag.number: tag for tag in tags})
         return seen
 
     def _locate(self, name: str, seen: Mapping[str, tuple[View, dict[int, Tag]]]) -> Found | None:
         what = self._tagging.objects[name]
         if what.tags:
             return locate(what, seen, self._table, self._tracker.last(name))
-        pictures = [(e.calibration.view, e.picture) for e in self._eyes.values() if e.picture is not None]
+        pictures = [(e.calibration.view, e.picture) for e in self._eyes.values() if e.picture and e.calibration]
         return find_by_colour(what, pictures, self._table)
 
     def _trouble(self) -> str | None:
@@ -171,6 +198,8 @@ class Perception:
         for name, eye in self._eyes.items():
             if (silent := eye.watch.trouble()) is not None:
                 return f"camera {name} is gone: {silent}"
+            if eye.calibration is None:
+                return f"camera {name} isn't calibrated"
             if eye.standing.moved:
                 return f"camera {name} has moved since it was calibrated, or is covered ({eye.standing.detail})"
         return None
@@ -182,9 +211,11 @@ def _read(eye: _Eye, after: float) -> tuple[Tag, ...] | None:
         picture = eye.watch.latest(after=after)
     except CameraLost:
         return None
+    eye.picture = picture
+    if eye.calibration is None or eye.reference is None:
+        return None
     lens = eye.calibration.view.lens
     tags = eye.detector.find(picture.colour)
-    eye.picture = picture
     if picture.colour.shape[:2] != (lens.height, lens.width):
         h, w = picture.colour.shape[:2]
         eye.standing = Standing(True, None, f"its pictures are {w} x {h}, calibrated at {lens.width} x {lens.height}")

@@ -3,6 +3,7 @@ import { useEffect, useState } from "react";
 import * as http from "../http";
 import { t } from "../i18n";
 import { ME } from "../me";
+import { Link } from "../router";
 import type { Session } from "../session";
 import { useOperator, useTold } from "../telling";
 import type { Experiment } from "../wire";
@@ -80,6 +81,11 @@ export function AtTheRobot({ session, experiment }: { session: Session; experime
         >
           {t("operator.recover")}
         </button>
+        {still && (
+          <Link to={`/experiments/${experiment.id}/cameras`} className="button" testId="calibrate-cameras">
+            {t("operator.calibrate")}
+          </Link>
+        )}
       </div>
     </div>
   );
