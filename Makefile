@@ -20,7 +20,7 @@ PYTEST_ARGS ?=
 # cores a learner, which gives way to everything else, may not start within its deadline.
 PYTEST_WORKERS ?= 2
 
-.PHONY: help run setup setup-dev test test-arm check check-web check-docker test-web bench api screenshots clean
+.PHONY: help run setup setup-dev test test-arm check check-web check-docker test-web bench bench-arm api screenshots clean
 
 help:
 	@sed -n 's/^# //p' Makefile | head -3
@@ -106,6 +106,9 @@ test-web: setup-dev
 
 bench: setup-dev
 	@$(BIN)/python -m tests.benchmarks
+
+bench-arm: setup-dev .simulators/.installed  ## on the simulated Franka, by itself on the machine
+	@$(BIN)/python -m tests.benchmarks franka_arm
 
 screenshots: setup-dev  ## the pictures in docs/screenshots; look at them before you commit them
 	@$(BIN)/python -m scripts.screenshots

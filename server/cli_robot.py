@@ -13,6 +13,7 @@ from rich.console import Console
 
 from robot_adapters.base import AdapterError, Array, Unavailable
 from robot_adapters.registry import task as task_by_name
+from server.cli_robot_check import check
 from server.settings import Settings
 
 USAGE, FAILED, INTERRUPTED = 2, 3, 130
@@ -31,6 +32,9 @@ CameraSources = Annotated[
         "may be given again",
     ),
 ]
+
+
+app.command("check")(check)
 
 
 @app.command()

@@ -129,8 +129,8 @@ class Robot:
             raise Refusal("these are not the approved parameters", remedy="have exactly these parameters approved")
         if proposal_id <= self._executed:
             raise Refusal(f"proposal {proposal_id} has had its execution", remedy="have it proposed again")
+        self._executed = proposal_id  # whatever comes of it: what a stop has refused isn't run after a re-arm either
         self._must_be_armed()
-        self._executed = proposal_id
         pictures = _Video(self.adapter, self._frames if video else None, execution_id)
         try:
             result = self.adapter.execute(call, should_stop=self._must_stop, on_step=pictures.step)

@@ -29,7 +29,9 @@ from tests.simulators.control_box import LabServer, mend
 
 READY = (0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785)  # rad; Franka's own "ready" pose, fingers pointing down
 FORCE_FILTER = 0.05  # of a new force in every millisecond, about what the real estimate does
-LOCK_STEP_PATIENCE = 0.25  # s for a client's command before it counts as lost
+LOCK_STEP_PATIENCE = 3.0  # s for a client's command before it counts as lost: a loaded machine may need them
+GONE_PATIENCE = 0.02  # s, likewise, once one was lost: nobody may be there any more
+STANDING = 0.01  # rad/s of every joint, below which the arm stands still: less than 1 cm/s at the hand
 CONTROL_PORT = 1339
 TIP = 0.1034  # m from the hand's frame to the end effector's, as Desk sets it for the hand
 
@@ -70,6 +72,9 @@ class Lab:
         self.hand = model.body("robot0_hand").id
         self.speed = 1.0
         self.lock_step = False
+        self.paced = False
+        self.moved_at, self.moved_on = 0, 0.0
+        self.driven_at, self.driven_on = 0, 0.0
         self.slippery = False
         self.clock = 0
         self.push = np.zeros(3)
@@ -91,18 +96,24 @@ class Lab:
             self.data.xfrc_applied[self.hand, :3] = self.push if self.clock < self.push_until else 0.0
             self.sim.step()
             self.clock += 1
+            if np.abs(self.data.qvel[self.robot._dof_addrs]).max() > STANDING:
+                self.moved_at, self.moved_on = self.clock, time.monotonic()
+            if server.moving:
+                self.driven_at, self.driven_on = self.clock, time.monotonic()
             self.feel()
             server.send_state()
             if self.clock % 10 == 0:
                 self.hear()
-            if not (self.lock_step and server.moving):
+            if self.paced or not (self.lock_step and server.moving):
                 due = max(due + 0.001 / self.speed, time.monotonic() - 0.02)
                 time.sleep(max(0.0, due - time.monotonic()))
 
     def wait_for_command(self) -> bool:
         """The client's answer to the newest state."""
         server = self.server
-        patience = LOCK_STEP_PATIENCE if server.begun else 0.005  # a client doesn't answer its motion's first states
+        patience = GONE_PATIENCE if server.lost else LOCK_STEP_PATIENCE
+        if not server.begun:
+            patience = 0.005  # a client doesn't answer its motion's first states
         before, deadline = server.last_command, time.monotonic() + patience
         while server.moving and time.monotonic() < deadline:
             select.select([server._FrankaServer__udp_socket, server._tcp_socket], [], [], 0.005)
@@ -162,7 +173,10 @@ class Lab:
         yield from whole
 
     def truth(self) -> dict[str, Any]:
-        """Everything, in m, N, s, base frame."""
+        """Everything, in m, N, s, base frame. `..._at` and `clock` are the robot's, `..._on` is CLOCK_MONOTONIC.
+
+        moved: when the arm moved last. driven: when a client controlled it last.
+        """
         # not the state's own: at a standstill that is of the joints it holds
         tip = self.data.xpos[self.hand] + self.data.xmat[self.hand].reshape(3, 3)[:, 2] * TIP
         return {
@@ -173,6 +187,10 @@ class Lab:
             "force": self.server.wrench[:3].tolist(),
             "mode": (self.server.mode or RobotMode.kIdle).name if not self.server.moving else "kMove",
             "clock": self.clock / 1000,
+            "moved_at": self.moved_at / 1000,
+            "moved_on": self.moved_on,
+            "driven_at": self.driven_at / 1000,
+            "driven_on": self.driven_on,
             "lost": self.server.lost_in_all,
         }
 
@@ -191,6 +209,10 @@ class Lab:
     def do_lock_step(self, on: bool) -> None:
         """Whether time waits for the client's commands."""
         self.lock_step = on
+
+    def do_paced(self, on: bool) -> None:
+        """Whether time passes no faster than it really does, while it waits for the client's commands."""
+        self.paced = on
 
     def do_speed(self, factor: float) -> None:
         """Simulated seconds a second, where time doesn't wait."""
