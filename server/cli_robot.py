@@ -18,7 +18,7 @@ from server.settings import Settings
 
 USAGE, FAILED, INTERRUPTED = 2, 3, 130
 
-app = typer.Typer(help="Set up a real robot: print tags, calibrate cameras, see what they see.", no_args_is_help=True)
+app = typer.Typer(help="Set up a real robot: check it, print tags, calibrate its cameras.", no_args_is_help=True)
 _stderr = Console(stderr=True, highlight=False)
 
 AsJson = Annotated[bool, typer.Option("--json", help="print one JSON object as the last line")]

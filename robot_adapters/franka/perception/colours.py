@@ -1,4 +1,4 @@
-"""Where an untagged object is: what has its colour above the table, by depth. Coarser than tags (planning: 8.5 mm)."""
+"""Where an untagged object is: what has its colour above the table, by depth. Coarser than tags."""
 
 from __future__ import annotations
 

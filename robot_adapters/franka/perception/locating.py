@@ -1,6 +1,6 @@
 """Where tagged objects are: by triangulation where two cameras see a tag, else by its ray and the plane it lies in.
 
-Never by the pose of a single tag: planning measured 12 to 13 mm for that, and half a millimetre for these two.
+Never by the pose of a single tag, which is several times less exact (docs/franka-cameras.md has all of them in mm).
 """
 
 from __future__ import annotations

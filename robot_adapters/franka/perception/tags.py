@@ -59,7 +59,7 @@ class TagDetector:
             raise Unavailable(
                 f"pyapriltags can't be imported: {error}", remedy="pip install 'seed-robot[franka]'"
             ) from error
-        # planning measured: decimated to half the size, tags of 3 cm are missed at a metre
+        # decimated to half the size, tags of 3 cm are missed at a metre
         self._detector: Any = Detector(families=FAMILY, nthreads=threads, quad_decimate=1.0)
 
     def find(self, colour: NDArray[np.uint8]) -> tuple[Tag, ...]:
