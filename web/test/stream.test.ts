@@ -12,7 +12,7 @@ class Socket {
   binaryType = "";
   sent: string[] = [];
   onmessage: ((message: { data: string | ArrayBuffer }) => void) | null = null;
-  onclose: (() => void) | null = null;
+  onclose: ((closed: { code: number }) => void) | null = null;
   constructor(readonly url: string) {
     Socket.made.push(this);
   }
@@ -21,7 +21,7 @@ class Socket {
   }
   close(): void {
     this.readyState = 3;
-    this.onclose?.();
+    this.onclose?.({ code: 1006 });
   }
   accept(): void {
     this.hear(snapshot());
