@@ -32,18 +32,22 @@ print("solved" if solved and not result.violations else result)
 
 
 CATALOGUE = """
-import asyncio, httpx
+import asyncio, httpx, tempfile
+from pathlib import Path
 from server.app import create_app
 from server.settings import Settings
 
-async def ask():
-    transport = httpx.ASGITransport(create_app(Settings()))
-    async with httpx.AsyncClient(transport=transport, base_url="http://127.0.0.1:8000") as http:
+async def ask(folder):
+    app = create_app(Settings(data_dir=Path(folder), create_first_experiment=False))
+    transport = httpx.ASGITransport(app)
+    client = httpx.AsyncClient(transport=transport, base_url="http://localhost")
+    async with app.router.lifespan_context(app), client as http:
         tasks = (await http.get("/api/v1/tasks")).json()
         adapters = (await http.get("/api/v1/adapters")).json()
     print(*(task["name"] for task in tasks), *(task for adapter in adapters for task in adapter["tasks"]))
 
-asyncio.run(ask())
+with tempfile.TemporaryDirectory() as folder:
+    asyncio.run(ask(folder))
 """
 
 
