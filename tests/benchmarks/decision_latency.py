@@ -121,7 +121,8 @@ def run() -> Result:
             )
             service.post(f"/experiments/{experiment}/start")
             store_labels(service, experiment)
-            page = browser.new_page(viewport={"width": 1280, "height": 800})
+            # the echo is another server, which the page's policy would keep it from
+            page = browser.new_page(viewport={"width": 1280, "height": 800}, bypass_csp=True)
             page.goto(f"{service.url}/experiments/{experiment}")
             clicks, echoes = press_and_echo(page, echo)
             version = service.get(f"/experiments/{experiment}/proposals?limit=1")["items"][0]["policy_version"]
