@@ -45,7 +45,7 @@ def _as_it_is(page: Page) -> None:
 
 def _ready(page: Page) -> None:
     page.wait_for_selector("[data-ready]", timeout=PATIENCE * 1000)
-    page.wait_for_function("[...document.images].every((image) => image.complete || image.loading === 'lazy')")
+    page.wait_for_function("() => [...document.images].every((image) => image.complete || image.loading === 'lazy')")
 
 
 def _with_everything(page: Page) -> None:
@@ -64,7 +64,7 @@ def _charted(page: Page) -> None:
 
 def _seen(page: Page) -> None:
     _as_it_is(page)
-    page.wait_for_function("[...document.images].every((image) => image.complete || image.loading === 'lazy')")
+    page.wait_for_function("() => [...document.images].every((image) => image.complete || image.loading === 'lazy')")
 
 
 def _settings(page: Page) -> None:

@@ -10,13 +10,13 @@ import asyncio
 import json
 import logging
 from pathlib import Path
-from typing import Annotated, Any, NoReturn
+from typing import Annotated, Any
 
 import typer
 from pydantic import ValidationError
-from rich.console import Console
 
 from robot_adapters.base import AdapterError, Unavailable
+from server.cli_ending import FAILED, INTERRUPTED, USAGE, give_up, stderr
 from server.cli_robot import app as robot
 from server.cli_runs import Interrupted, RunFailed, check_plug_in, evaluate_stored, train_headless
 from server.cli_serve import run_server
@@ -29,8 +29,6 @@ from server.settings import Settings
 from server.store import Store
 from server.store_errors import StoreError
 
-USAGE, FAILED, INTERRUPTED = 2, 3, 130
-
 app = typer.Typer(
     help="Train a robot arm from a browser tab by clicking good or bad.",
     epilog="Exit codes: 0 done; 1 check has findings; 2 wrong arguments or set-up; 3 robot, simulator or learner "
@@ -41,7 +39,6 @@ app = typer.Typer(
 )
 app.add_typer(study, name="study")
 app.add_typer(robot, name="robot")
-_stderr = Console(stderr=True, highlight=False)
 
 DataDir = Annotated[
     Path | None,
@@ -63,7 +60,7 @@ def serve(
         check_bind(settings)
         asyncio.run(run_server(settings, announce=typer.echo))
     except (ServiceError, StoreError) as error:
-        _give_up(str(error), error.remedy, USAGE)
+        give_up(str(error), error.remedy, USAGE)
     except KeyboardInterrupt:
         raise typer.Exit(INTERRUPTED) from None  # before it served; afterwards a signal ends it in order
 
@@ -107,13 +104,13 @@ def train(  # noqa: PLR0917  Typer makes an option of each
     try:
         fields |= settings_from(changes or [])
     except ValueError as error:
-        _give_up(str(error), "write e.g. --set teacher.noise=0.1 or --set algorithm.batch_size=32", USAGE)
+        give_up(str(error), "write e.g. --set teacher.noise=0.1 or --set algorithm.batch_size=32", USAGE)
     if changes and resume is not None:
-        _give_up("--set is for a new experiment", "leave it out, or leave --resume out", USAGE)
+        give_up("--set is for a new experiment", "leave it out, or leave --resume out", USAGE)
 
     async def run() -> dict[str, Any]:
         what = resume if resume is not None else ExperimentCreate(**fields)
-        return await train_headless(settings, what, feedback, evaluate, _stderr)
+        return await train_headless(settings, what, feedback, evaluate, stderr)
 
     _report(run, as_json)
 
@@ -129,7 +126,7 @@ def evaluate(
     """Roll out the deterministic policy of a stored experiment (simulated adapters only)."""
     settings = _settings(data_dir=data_dir)
     body = EvaluationCreate(rollouts=rollouts, seed=seed)
-    _report(lambda: evaluate_stored(settings, experiment, body, _stderr), as_json)
+    _report(lambda: evaluate_stored(settings, experiment, body, stderr), as_json)
 
 
 @app.command()
@@ -144,7 +141,7 @@ def check(
     try:
         findings = check_plug_in(name, task, adapter)
     except AdapterError as error:
-        _give_up(str(error), error.remedy, FAILED if isinstance(error, Unavailable) else USAGE)
+        give_up(str(error), error.remedy, FAILED if isinstance(error, Unavailable) else USAGE)
     for finding in findings:
         typer.echo(f"- {finding}")
     if findings:
@@ -168,7 +165,7 @@ def owner_token(data_dir: DataDir = None) -> None:
     try:
         typer.echo(asyncio.run(make()))
     except StoreError as error:
-        _give_up(str(error), error.remedy, USAGE)
+        give_up(str(error), error.remedy, USAGE)
 
 
 @app.command()
@@ -185,15 +182,15 @@ def _report(run: Any, as_json: bool) -> None:
     try:
         summary = asyncio.run(run())
     except ValidationError as error:
-        _give_up(_first(error), "see seed train --help", USAGE)
+        give_up(_first(error), "see seed train --help", USAGE)
     except RunFailed as error:
-        _give_up(str(error), error.remedy, FAILED)
+        give_up(str(error), error.remedy, FAILED)
     except Interrupted as error:
-        _give_up(str(error), error.remedy, INTERRUPTED)
+        give_up(str(error), error.remedy, INTERRUPTED)
     except KeyboardInterrupt:
         raise typer.Exit(INTERRUPTED) from None  # before anything had begun
     except (ServiceError, StoreError) as error:
-        _give_up(str(error), error.remedy, USAGE)
+        give_up(str(error), error.remedy, USAGE)
     else:
         if as_json:
             typer.echo(json.dumps(summary))
@@ -207,7 +204,7 @@ def _settings(**options: Any) -> Settings:
         return Settings(**{key: value for key, value in options.items() if value is not None})
     except ValidationError as error:
         field = ".".join(map(str, error.errors()[0]["loc"]))
-        _give_up(
+        give_up(
             f"the setting {_first(error)}",
             f"correct --{field.replace('_', '-')} or SEED_{field.upper()}; docs/settings.md lists all",
             USAGE,
@@ -224,9 +221,3 @@ def _log(level: str) -> None:
 def _first(error: ValidationError) -> str:
     first = error.errors()[0]
     return f"{'.'.join(map(str, first['loc']))}: {first['msg']}"
-
-
-def _give_up(message: str, remedy: str, code: int) -> NoReturn:
-    _stderr.print(f"[bold red]error:[/] {message}", soft_wrap=True)
-    _stderr.print(f"[bold]remedy:[/] {remedy}", soft_wrap=True)
-    raise typer.Exit(code)

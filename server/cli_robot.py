@@ -6,20 +6,17 @@ import json
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Annotated, Any, NoReturn
+from typing import Annotated, Any
 
 import typer
-from rich.console import Console
 
 from robot_adapters.base import AdapterError, Array, Unavailable
 from robot_adapters.registry import task as task_by_name
+from server.cli_ending import FAILED, INTERRUPTED, USAGE, give_up, stderr
 from server.cli_robot_check import check
 from server.settings import Settings
 
-USAGE, FAILED, INTERRUPTED = 2, 3, 130
-
 app = typer.Typer(help="Set up a real robot: check it, print tags, calibrate its cameras.", no_args_is_help=True)
-_stderr = Console(stderr=True, highlight=False)
 
 AsJson = Annotated[bool, typer.Option("--json", help="print one JSON object as the last line")]
 DataDir = Annotated[Path | None, typer.Option(help="directory of the data [default: data, or SEED_DATA_DIR]")]
@@ -58,7 +55,7 @@ def tags(
     from robot_adapters.franka.perception.moved import FIXED_FROM  # noqa: PLC0415
 
     if (task is None) == (fixed == 0):
-        _give_up("say what to print", "give either --task stacking or --fixed 4", USAGE)
+        give_up("say what to print", "give either --task stacking or --fixed 4", USAGE)
     if task is None:
         _said(lambda: printing.fixed_sheet(out, range(FIXED_FROM, FIXED_FROM + fixed), size / 1000))
     else:
@@ -95,7 +92,7 @@ def calibrate(  # noqa: PLR0917  Typer makes an option of each
         for name, source in sources.items():
             watches[name] = Watch(name, lambda source=source: open_camera(source))  # type: ignore[misc]
         session = calibrating.Session(watches, Board(square / 1000), wanted)
-        with _stderr.status("Opening the cameras ...") as status:
+        with stderr.status("Opening the cameras ...") as status:
 
             def told(step: calibrating.Step) -> None:
                 counts = ", ".join(f"{name} {count}/{wanted}" for name, count in step.taken.items())
@@ -105,7 +102,7 @@ def calibrate(  # noqa: PLR0917  Typer makes an option of each
                 session.replay(recorded, told)
             else:
                 hand = _hand(host, backend)
-                _stderr.print("Press the enabling button and guide the arm. Poses are taken by themselves.")
+                stderr.print("Press the enabling button and guide the arm. Poses are taken by themselves.")
                 while not (step := session.step(hand)).done:
                     told(step)
             status.update("Calculating ...")
@@ -114,9 +111,9 @@ def calibrate(  # noqa: PLR0917  Typer makes an option of each
             typer.prompt("Take the board away and the arm out of the picture, then press Enter", default="", err=True)
         files = session.store(sources, where)
     except AdapterError as error:
-        _give_up(str(error), error.remedy, FAILED)
+        give_up(str(error), error.remedy, FAILED)
     except KeyboardInterrupt:
-        _give_up("interrupted; nothing was stored", "start it again", INTERRUPTED)
+        give_up("interrupted; nothing was stored", "start it again", INTERRUPTED)
     finally:
         for watch in watches.values():
             watch.close()
@@ -156,7 +153,7 @@ def _hand(host: str, backend: str) -> Callable[[], Array]:
     from robot_adapters.franka import FrankaSettings, connecting  # noqa: PLC0415
 
     if backend not in connecting.BACKENDS:
-        _give_up(f"there is no backend {backend!r}", "use one of: " + ", ".join(connecting.BACKENDS), USAGE)
+        give_up(f"there is no backend {backend!r}", "use one of: " + ", ".join(connecting.BACKENDS), USAGE)
     arm = connecting.backend(FrankaSettings.model_validate({"host": host, "backend": backend, "realtime": False}))
 
     def pose() -> Array:
@@ -174,9 +171,9 @@ def _sources(given: list[str]) -> Mapping[str, str]:
     for text in given:
         name, equals, source = text.partition("=")
         if not equals or not source or not name.isidentifier():
-            _give_up(f"--camera {text}: no NAME=SOURCE", "write e.g. --camera left=realsense:SERIAL", USAGE)
+            give_up(f"--camera {text}: no NAME=SOURCE", "write e.g. --camera left=realsense:SERIAL", USAGE)
         if name in sources:
-            _give_up(f"--camera {name} is given twice", "give each camera a name of its own", USAGE)
+            give_up(f"--camera {name} is given twice", "give each camera a name of its own", USAGE)
         sources[name] = source
     return sources
 
@@ -185,12 +182,6 @@ def _said(work: Callable[[], list[Path]]) -> None:
     try:
         files = work()
     except AdapterError as error:
-        _give_up(str(error), error.remedy, FAILED if isinstance(error, Unavailable) else USAGE)
+        give_up(str(error), error.remedy, FAILED if isinstance(error, Unavailable) else USAGE)
     for file in files:
         typer.echo(str(file))
-
-
-def _give_up(message: str, remedy: str, code: int) -> NoReturn:
-    _stderr.print(f"[bold red]error:[/] {message}", soft_wrap=True)
-    _stderr.print(f"[bold]remedy:[/] {remedy}", soft_wrap=True)
-    raise typer.Exit(code)

@@ -11,15 +11,11 @@ from typing import Annotated, Any
 
 import typer
 from pydantic import ValidationError
-from rich.console import Console
 
 from robot_adapters.base import AdapterError
 from robot_adapters.franka import FrankaSettings
+from server.cli_ending import FAILED, FINDINGS, INTERRUPTED, USAGE, give_up, stderr
 from server.cli_set import settings_from
-
-FINDINGS, USAGE, FAILED, INTERRUPTED = 1, 2, 3, 130
-
-_stderr = Console(stderr=True, highlight=False)
 
 
 def check(  # noqa: PLR0917  Typer makes an option of each
@@ -53,9 +49,7 @@ def check(  # noqa: PLR0917  Typer makes an option of each
                 findings.append(finding)
                 _tell(finding)
     except AdapterError as error:
-        _stderr.print(f"[bold red]error:[/] {error}", soft_wrap=True)
-        _stderr.print(f"[bold]remedy:[/] {error.remedy}", soft_wrap=True)
-        raise typer.Exit(USAGE) from error
+        give_up(str(error), error.remedy, USAGE)
     bad = [f.what for f in findings if f.verdict is checking.Verdict.BAD]
     if as_json:
         typer.echo(json.dumps({"ok": not bad, "findings": [_plain(f) for f in findings]}))
@@ -80,9 +74,7 @@ def _settings(host: str, backend: str, changes: list[str]) -> FrankaSettings:
         message, remedy = f"{name}: {first['msg']}", "see docs/franka.md"
     except ValueError as error:
         message, remedy = str(error), "write e.g. --set adapter.table_height=0.02"
-    _stderr.print(f"[bold red]error:[/] {message}", soft_wrap=True)
-    _stderr.print(f"[bold]remedy:[/] {remedy}", soft_wrap=True)
-    raise typer.Exit(USAGE)
+    give_up(message, remedy, USAGE)
 
 
 def _asked(question: str) -> bool:
@@ -95,11 +87,11 @@ def _asked(question: str) -> bool:
 
 def _tell(finding: Any) -> None:
     marks = {"good": "[green]ok  [/]", "note": "[yellow]note[/]", "bad": "[bold red]no  [/]", "skipped": "[dim]--  [/]"}
-    _stderr.print(f"{marks[finding.verdict]} {finding.what}: ", end="")
-    _stderr.print(finding.said, markup=False, soft_wrap=True)
+    stderr.print(f"{marks[finding.verdict]} {finding.what}: ", end="")
+    stderr.print(finding.said, markup=False, soft_wrap=True)
     if finding.remedy:
-        _stderr.print("     remedy: ", end="")
-        _stderr.print(finding.remedy, markup=False, soft_wrap=True)
+        stderr.print("     remedy: ", end="")
+        stderr.print(finding.remedy, markup=False, soft_wrap=True)
 
 
 def _plain(finding: Any) -> dict[str, str]:

@@ -6,7 +6,7 @@ import json
 import logging
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Annotated, Any, NoReturn
+from typing import Annotated, Any
 
 import typer
 from rich.console import Console
@@ -17,16 +17,14 @@ from agent.study.claims import CLAIMS, claimed
 from agent.study.execution import ProcessDied
 from agent.study.plan import CLICKS, SCENARIOS, Plan, StudyError
 from robot_adapters.base import AdapterError, Unavailable
+from server.cli_ending import FAILED, INTERRUPTED, USAGE, give_up, stderr
 from server.study_plans import FIRST_SEED, SEEDS, ablated, competing, ladder, named, plan_of
 from server.study_runs import Place, run_study
 from server.study_screen import results_table
 
-USAGE, FAILED, INTERRUPTED = 2, 3, 130
-
 app = typer.Typer(
     help="Run a study: algorithms x tasks x seeds, ending in curves, tables and figures.", no_args_is_help=True
 )
-_stderr = Console(stderr=True, highlight=False)
 
 Seeds = Annotated[int | None, typer.Option(min=1, help="seeds of each algorithm on each task [default: 5]")]
 FirstSeed = Annotated[
@@ -205,20 +203,20 @@ def _run(name: str, plan: Callable[[], Plan], given: Mapping[str, Any], place: P
     """Run a study to its end and tell what came out; every foreseen end has its exit code."""
     logging.basicConfig(level="WARNING", format="%(levelname)s %(name)s: %(message)s")
     try:
-        done = run_study(name, plan, given, place, _stderr)
+        done = run_study(name, plan, given, place, stderr)
     except (AgentError, AdapterError) as error:
-        _give_up(str(error), error.remedy, FAILED if isinstance(error, ProcessDied | Unavailable) else USAGE)
+        give_up(str(error), error.remedy, FAILED if isinstance(error, ProcessDied | Unavailable) else USAGE)
     except KeyboardInterrupt:
         again = f"seed study {name} --resume --out {place.folder(name)}"
-        _give_up(
+        give_up(
             "interrupted: what is finished stays, and every other run goes on from its last evaluation",
             again,
             INTERRUPTED,
         )
     for run, why in done.failed.items():
-        _stderr.print(f"[bold red]failed:[/] {run}: {why}", soft_wrap=True)
+        stderr.print(f"[bold red]failed:[/] {run}: {why}", soft_wrap=True)
     for warning in done.warnings:
-        _stderr.print(f"[bold yellow]warning:[/] {warning}", soft_wrap=True)
+        stderr.print(f"[bold yellow]warning:[/] {warning}", soft_wrap=True)
     if as_json:
         typer.echo(json.dumps(done.told()))
     else:
@@ -226,9 +224,3 @@ def _run(name: str, plan: Callable[[], Plan], given: Mapping[str, Any], place: P
         typer.echo(f"{done.folder}: table.md, results.csv, {len(done.figures)} figures")
     if done.failed:
         raise typer.Exit(FAILED)
-
-
-def _give_up(message: str, remedy: str, code: int) -> NoReturn:
-    _stderr.print(f"[bold red]error:[/] {message}", soft_wrap=True)
-    _stderr.print(f"[bold]remedy:[/] {remedy}", soft_wrap=True)
-    raise typer.Exit(code)

@@ -10,6 +10,7 @@ from starlette.requests import HTTPConnection
 from starlette.responses import Response
 
 from server.errors import ServiceError
+from server.origin import SAFE_METHODS
 from server.presence import Presence
 from server.principal import LOCAL, Principal
 from server.rates import Rates
@@ -21,7 +22,6 @@ from server.store_people import WrongToken
 
 COOKIE = "seed_session"
 """Of the page. HttpOnly: no script reads it; SameSite: no other site sends it."""
-SAFE_METHODS = {"GET", "HEAD", "OPTIONS"}
 UNCOUNTED = frozenset({"halt_experiment"})
 """Routes that somebody who is let in may ask for at any rate: an emergency stop never waits."""
 LOOK_EVERY = 2.0

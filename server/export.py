@@ -11,9 +11,10 @@ from typing import Any, Literal
 from sqlalchemy import select
 from sqlalchemy.orm import Session
 
-from server import store_records
+from server import store_audit, store_records
 from server.models import FeedbackRow, MetricRow, ProposalRow
 from server.schemas_labels import answer_of
+from server.schemas_people import AuditEntry
 from server.store import Store
 
 Form = Literal["csv", "jsonl"]
@@ -38,7 +39,7 @@ COLUMNS = (
 )
 """act: `click`, or `relabel`, whose `trainer` is who corrected it and whose `at` is when."""
 CHUNK = 500
-"""Clicks read at once: an export of any size needs little memory, and holds up nobody."""
+"""Rows read at once: an export of any size needs little memory, and holds up nobody."""
 
 
 async def feedback(store: Store, experiment_id: int, form: Form) -> AsyncIterator[str]:
@@ -68,6 +69,20 @@ async def metrics(store: Store, experiment_id: int, form: Form) -> AsyncIterator
             yield _lines([[row.get(column, "") for column in columns] for row in rows])
         else:
             yield "".join(json.dumps(row) + "\n" for row in rows)
+
+
+async def audit(store: Store, experiment_id: int | None) -> AsyncIterator[str]:
+    """Every decision as CSV, oldest first; of one experiment, or of everything."""
+    yield _lines([list(AuditEntry.model_fields)])
+    last = 0
+    while entries := await store.read(_decisions(experiment_id, last)):
+        rows = [entry.model_dump() | {"at": entry.at.isoformat()} for entry in entries]
+        yield _lines([[_cell(value) for value in row.values()] for row in rows])
+        last = entries[-1].id
+
+
+def _decisions(experiment_id: int | None, last: int) -> Callable[[Session], list[AuditEntry]]:
+    return lambda session: store_audit.after(session, experiment_id, last, CHUNK)
 
 
 def _points(experiment_id: int, after: int) -> Callable[[Session], tuple[list[dict[str, Any]], int]]:

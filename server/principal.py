@@ -52,6 +52,10 @@ class Principal:
         """Without a login a client may say in whose name it acts; with one, nobody may."""
         return replace(self, name=name) if self.local else self
 
+    def asking(self, name: str | None) -> str | None:
+        """Who wants something of their own: without a login the name that was said, if any."""
+        return name if self.local else self.name
+
     def speaking_for(self, name: str | None) -> str:
         """The name whose figures they may ask for: an operator anybody's, everyone else their own."""
         return name if name is not None and (self.local or self.role.covers(Role.OPERATOR)) else self.name

@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import csv
-import io
-import json
-from collections.abc import AsyncIterator
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from sqlalchemy import Select, select
 from sqlalchemy.orm import Session
@@ -17,9 +13,6 @@ from server.models_people import AuditRow
 from server.principal import SERVICE, Principal
 from server.schemas_people import AuditEntry, AuditPage
 
-if TYPE_CHECKING:
-    from server.store import Store
-
 DECISIONS = frozenset(
     {
         *("created", "updated", "start", "pause", "resume", "finish", "halt", "rearm", "reset", "archive"),
@@ -27,9 +20,7 @@ DECISIONS = frozenset(
         *("relabelled", "undone", "gold_marked", "gold_unmarked", "auto_approved"),
     }
 )
-"""Kinds of lines of an experiment's journal that are decisions. Clicks, attendance and access are recorded by name."""
-COLUMNS = ("id", "at", "name", "role", "person_id", "session_id", "experiment_id", "action", "subject")
-CHUNK = 1000
+"""Kinds of lines of an experiment's journal that are decisions. Clicks and access are recorded by name."""
 
 
 def record(
@@ -61,16 +52,10 @@ def page(session: Session, experiment_id: int | None, cursor: str | None, limit:
     return AuditPage(items=entries, next_cursor=following)
 
 
-async def table(store: Store, experiment_id: int | None) -> AsyncIterator[str]:
-    """The whole of it as CSV, oldest first, piece by piece."""
-    yield _csv([COLUMNS])
-    after = 0
-    while True:
-        entries = await store.read(_reading(experiment_id, after))
-        if not entries:
-            return
-        yield _csv([_cells(entry) for entry in entries])
-        after = entries[-1].id
+def after(session: Session, experiment_id: int | None, last: int, limit: int) -> list[AuditEntry]:
+    """The next ones after the id `last`, oldest first."""
+    query = _query(experiment_id).where(AuditRow.id > last).order_by(AuditRow.id).limit(limit)
+    return [_wire(row) for row in session.scalars(query)]
 
 
 def _query(experiment_id: int | None) -> Select[Any]:
@@ -78,28 +63,5 @@ def _query(experiment_id: int | None) -> Select[Any]:
     return query if experiment_id is None else query.where(AuditRow.experiment_id == experiment_id)
 
 
-def _reading(experiment_id: int | None, after: int) -> Any:
-    query = _query(experiment_id).where(AuditRow.id > after).order_by(AuditRow.id).limit(CHUNK)
-    return lambda session: [_wire(row) for row in session.scalars(query)]
-
-
 def _wire(row: AuditRow) -> AuditEntry:
-    return AuditEntry(**{column: getattr(row, column) for column in COLUMNS})
-
-
-def _cells(entry: AuditEntry) -> tuple[Any, ...]:
-    return (
-        *(entry.id, entry.at.isoformat(), _plain(entry.name), entry.role, entry.person_id, entry.session_id),
-        *(entry.experiment_id, entry.action, json.dumps(entry.subject)),
-    )
-
-
-def _plain(text: str) -> str:
-    """A name that a spreadsheet would take for a formula is led by an apostrophe."""
-    return f"'{text}" if text.startswith(("=", "+", "-", "@")) else text
-
-
-def _csv(rows: list[tuple[Any, ...]]) -> str:
-    out = io.StringIO()
-    csv.writer(out).writerows(rows)
-    return out.getvalue()
+    return AuditEntry(**{field: getattr(row, field) for field in AuditEntry.model_fields})

@@ -6,6 +6,7 @@ import hashlib
 import secrets
 from collections.abc import Collection
 from datetime import UTC, datetime, timedelta
+from typing import TypeVar
 
 from sqlalchemy import Select, or_, select
 from sqlalchemy.orm import Session
@@ -18,6 +19,8 @@ from server.models_people import InvitationRow, PersonRow, SessionRow
 from server.principal import Principal, Role
 from server.store_audit import record
 from server.store_errors import Conflict, NotFound
+
+R = TypeVar("R", ExperimentRow, InvitationRow, PersonRow)
 
 OWNER = "owner"
 """Name of whoever holds the token that the first start prints."""
@@ -161,8 +164,8 @@ class PeopleStore:
         made = new_token()
 
         def make(session: Session) -> wire.Invitation:
-            if body.experiment_id is not None and session.get(ExperimentRow, body.experiment_id) is None:
-                raise NotFound("experiment", body.experiment_id)
+            if body.experiment_id is not None:
+                _load(session, ExperimentRow, body.experiment_id)
             at = _now()
             row = InvitationRow(
                 digest=digest(made),
@@ -198,18 +201,13 @@ class PeopleStore:
         Raises:
             NotFound: there is none.
         """
-        row = await self._database.read(lambda s: s.get(InvitationRow, invitation_id))
-        if row is None:
-            raise NotFound("invitation", invitation_id)
-        return _invitation(row)
+        return await self._database.read(lambda s: _invitation(_load(s, InvitationRow, invitation_id)))
 
     async def revoke_invitation(self, invitation_id: int) -> None:
         """Let nobody in by it any more; those who are in stay."""
 
         def revoke(session: Session) -> None:
-            row = session.get(InvitationRow, invitation_id)
-            if row is None:
-                raise NotFound("invitation", invitation_id)
+            row = _load(session, InvitationRow, invitation_id)
             if row.revoked_at is None:
                 row.revoked_at = _now()
                 record(session, "invitation_revoked", row.experiment_id, invitation=row.id)
@@ -231,10 +229,7 @@ class PeopleStore:
         Raises:
             NotFound: there is none.
         """
-        row = await self._database.read(lambda s: s.get(PersonRow, person_id))
-        if row is None:
-            raise NotFound("person", person_id)
-        return _person(row)
+        return await self._database.read(lambda s: _person(_load(s, PersonRow, person_id)))
 
     async def change_role(self, person_id: int, role: Role) -> wire.Person:
         """Give somebody another role.
@@ -244,7 +239,7 @@ class PeopleStore:
         """
 
         def change(session: Session) -> wire.Person:
-            row = _load(session, person_id)
+            row = _load(session, PersonRow, person_id)
             if role is not Role.OWNER:
                 _must_not_be_last(session, row)
             if row.role != role.value:
@@ -262,7 +257,7 @@ class PeopleStore:
         """
 
         def revoke(session: Session) -> wire.Person:
-            row = _load(session, person_id)
+            row = _load(session, PersonRow, person_id)
             _must_not_be_last(session, row)
             if row.revoked_at is None:
                 row.revoked_at = _now()
@@ -318,10 +313,10 @@ RESERVED = frozenset({OWNER, "local", "service"})
 """Names that would be taken for somebody else in an audit."""
 
 
-def _load(session: Session, person_id: int) -> PersonRow:
-    row = session.get(PersonRow, person_id)
+def _load(session: Session, kind: type[R], row_id: int) -> R:
+    row = session.get(kind, row_id)
     if row is None:
-        raise NotFound("person", person_id)
+        raise NotFound(kind.__tablename__, row_id)
     return row
 
 

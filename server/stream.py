@@ -301,7 +301,7 @@ class Connection:
         feedback = await self._store.feedback(message.feedback_id)
         if feedback.experiment_id != self._experiment_id:
             raise NotFound("feedback of this experiment", message.feedback_id)
-        return await self._hub.undo(message.feedback_id, by=self._trainer if self._who.local else self._who.name)
+        return await self._hub.undo(message.feedback_id, by=self._who.asking(self._trainer))
 
     async def _look(self, trainer: str) -> None:
         with contextlib.suppress(StoreError):  # it comes again in a moment

@@ -93,4 +93,4 @@ async def relabel_feedback(
 @router.delete("/feedback/{feedback_id}", responses=errors(404, 409, 422))
 async def undo_feedback(service: Running, who: Who, feedback_id: Id, trainer: Asker = None) -> Feedback:
     """Take back a trainer's newest click, while nothing has moved; its proposal is open again."""
-    return await service.hub.undo(feedback_id, by=trainer if who.local else who.name)
+    return await service.hub.undo(feedback_id, by=who.asking(trainer))

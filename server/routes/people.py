@@ -7,10 +7,11 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Body, Query, Request, Response
 from fastapi.responses import StreamingResponse
 
-from server import store_audit
+from server import export, store_audit
 from server.errors import ServiceError
 from server.principal import Principal, Role
 from server.routes.dependencies import LARGEST_ID, Cursor, Id, Limit, Running, Who, errors
+from server.routes.tables import table
 from server.schemas_people import (
     AuditPage,
     InvitationCreate,
@@ -156,11 +157,7 @@ async def list_audit(
 @router.get("/exports/audit", response_class=StreamingResponse, responses={**errors(422), **TABLE})
 async def export_audit(service: Running, experiment: OfExperiment = None) -> StreamingResponse:
     """The same as CSV, oldest first."""
-    return StreamingResponse(
-        store_audit.table(service.store, experiment),
-        media_type="text/csv; charset=utf-8",
-        headers={"Content-Disposition": 'attachment; filename="audit.csv"'},
-    )
+    return table(export.audit(service.store, experiment), "csv", "audit")
 
 
 def _must_reach(who: Principal, role: Role) -> None:

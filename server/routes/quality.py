@@ -10,6 +10,7 @@ from fastapi.responses import StreamingResponse
 from server import export
 from server.errors import ServiceError
 from server.routes.dependencies import Cursor, Id, Limit, Running, Who, errors
+from server.routes.tables import TABLE, table
 from server.schemas_labels import TrainerName
 from server.schemas_quality import GoldMark, GoldPage, LabelQuality, TrainerFigures
 
@@ -17,9 +18,6 @@ router = APIRouter(tags=["quality"])
 
 Whose = Annotated[TrainerName | None, Query(description="whose, for operators; left out: one's own")]
 MARK: dict[str, Any] = {"it is bad": {"value": {"answer": -1}}}
-TABLE: dict[int | str, dict[str, Any]] = {
-    200: {"content": {media: {} for media in export.MEDIA_TYPES.values()}, "description": "The table"}
-}
 
 
 @router.get("/experiments/{experiment_id}/quality", responses=errors(404, 422))
@@ -72,8 +70,4 @@ async def export_feedback(
 ) -> StreamingResponse:
     """Every click with its history: corrections, late ones, those taken back, can't tell, gold, practice."""
     await service.store.experiment(experiment_id)
-    return StreamingResponse(
-        export.feedback(service.store, experiment_id, form),
-        media_type=export.MEDIA_TYPES[form],
-        headers={"Content-Disposition": f'attachment; filename="experiment-{experiment_id}-feedback.{form}"'},
-    )
+    return table(export.feedback(service.store, experiment_id, form), form, f"experiment-{experiment_id}-feedback")

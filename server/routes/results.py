@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import APIRouter, Query
 from fastapi.responses import StreamingResponse
 
 from server import comparing, export, store_curves, store_listing
 from server.routes.dependencies import LARGEST_ID, Id, Running, Who, errors
+from server.routes.tables import TABLE, table
 from server.schemas_curves import Comparison, Curves, Grouping, Measure, PaperFigures
 from server.schemas_listing import TagInfo
 
 router = APIRouter(tags=["results"])
 
-TABLE: dict[int | str, dict[str, Any]] = {
-    200: {"content": {media: {} for media in export.MEDIA_TYPES.values()}, "description": "The table"}
-}
 
 Points = Annotated[int, Query(ge=10, le=2000, description="about the most points of a curve")]
 Experiments = Annotated[
@@ -47,11 +45,7 @@ async def export_metrics(
 ) -> StreamingResponse:
     """Every metric point, one a label: what the learner reported and what was counted by then."""
     await service.store.experiment(experiment_id)
-    return StreamingResponse(
-        export.metrics(service.store, experiment_id, form),
-        media_type=export.MEDIA_TYPES[form],
-        headers={"Content-Disposition": f'attachment; filename="experiment-{experiment_id}-metrics.{form}"'},
-    )
+    return table(export.metrics(service.store, experiment_id, form), form, f"experiment-{experiment_id}-metrics")
 
 
 @router.get("/comparison", responses=errors(404, 422))

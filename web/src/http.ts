@@ -1,7 +1,7 @@
 // REST: JSON in and out; every failure becomes an `ApiError` that carries problem details with a remedy.
 import { at } from "./base";
 import { t } from "./i18n";
-import { ME, signedOut } from "./me";
+import { ME, may, signedOut } from "./me";
 import type {
   AdapterInfo,
   Aggregation,
@@ -240,8 +240,9 @@ export const calibration = (id: number) => request<Calibration>("GET", `/experim
 export const autoApproval = (id: number) =>
   request<AutoApprovalRecord>("GET", `/experiments/${id}/auto-approval`);
 
-/** Everybody's figures, and how far they agree. */
-export const labelQuality = (id: number) => request<LabelQuality>("GET", `/experiments/${id}/quality`);
+/** Everybody's figures, and how far they agree; null for those who may see their own only. */
+export const labelQuality = async (id: number) =>
+  may("operator") ? request<LabelQuality>("GET", `/experiments/${id}/quality`) : null;
 
 /** Know the answer to a closed proposal. */
 export const markGold = (proposalId: number, answer: -1 | 1) =>

@@ -6,6 +6,7 @@ import { ChartCard } from "../components/ChartCard";
 import { CompareTable } from "../components/CompareTable";
 import { CompareTools } from "../components/CompareTools";
 import { Header } from "../components/Header";
+import { ProblemBanner } from "../components/ProblemBanner";
 import * as http from "../http";
 import { t } from "../i18n";
 import { Link, setSearch, useSearch } from "../router";
@@ -92,13 +93,7 @@ function Comparing({ compared, onChange }: { compared: Compared; onChange: (next
   return (
     <>
       <CompareTools compared={compared} figures={figures} onChange={onChange} />
-      {problem && (
-        <div className="banner" role="alert">
-          <div>
-            <b>{problem.detail}</b> {problem.remedy}
-          </div>
-        </div>
-      )}
+      {problem && <ProblemBanner problem={problem} />}
       {!picture && !problem && (
         <div className="skeleton tall" role="status" aria-label={t("common.loading")} />
       )}

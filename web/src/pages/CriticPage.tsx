@@ -6,6 +6,7 @@ import { ExperimentTabs } from "../components/ExperimentTabs";
 import { Header } from "../components/Header";
 import { Picture } from "../components/History";
 import { Sprout } from "../components/icons";
+import { ProblemBanner } from "../components/ProblemBanner";
 import { ProblemCard } from "../components/ProblemCard";
 import * as http from "../http";
 import { skillName, t } from "../i18n";
@@ -145,13 +146,7 @@ function Looking({ entries, task }: { entries: HistoryEntry[]; task: TaskInfo })
             {t("critic.all")}
           </label>
         </div>
-        {problem && (
-          <div className="banner" role="alert" data-testid="critic-problem">
-            <div>
-              <b>{problem.detail}</b> {problem.remedy}
-            </div>
-          </div>
-        )}
+        {problem && <ProblemBanner problem={problem} testId="critic-problem" />}
         {!map && !problem && <div className="skeleton tall" role="status" aria-label={t("critic.asking")} />}
         {map && <CriticPicture map={map} proposal={proposal} scene={task.scene} all={all} />}
         {map && (

@@ -6,6 +6,7 @@ import { ExperimentTable } from "../components/ExperimentTable";
 import { Header } from "../components/Header";
 import { Sprout } from "../components/icons";
 import { ListTools } from "../components/ListTools";
+import { ProblemBanner } from "../components/ProblemBanner";
 import * as http from "../http";
 import { t } from "../i18n";
 import { isNarrowed, listingOf, withTag } from "../listing";
@@ -138,21 +139,13 @@ export function ExperimentsPage() {
           </Link>
         </div>
         {wrong && (
-          <div className="banner" role="alert">
-            <div>
-              <b>{wrong.detail}</b> {wrong.remedy}
-            </div>
-            <button
-              type="button"
-              className="button"
-              onClick={() => {
-                setProblem(null);
-                refresh();
-              }}
-            >
-              {t("common.retry")}
-            </button>
-          </div>
+          <ProblemBanner
+            problem={wrong}
+            onRetry={() => {
+              setProblem(null);
+              refresh();
+            }}
+          />
         )}
         {(narrowed || (list.items?.length ?? 0) > 0) && (
           <ListTools listing={listing} catalogue={catalogue} tags={knownTags} onChange={setSearch} />

@@ -4,6 +4,7 @@
 import { type FormEvent, useEffect, useRef, useState } from "react";
 import { Choice, Field } from "../components/Field";
 import { Header } from "../components/Header";
+import { ProblemBanner } from "../components/ProblemBanner";
 import { ProblemCard } from "../components/ProblemCard";
 import { SettingsPart } from "../components/SettingsPart";
 import { RULES } from "../components/Together";
@@ -134,14 +135,11 @@ function NewForm({ catalogue, first }: { catalogue: http.Catalogue; first: Draft
         />
       ))}
       {problem && (
-        <div className="banner" role="alert" data-testid="create-problem">
-          <div>
-            <b>{problem.detail}</b> {problem.remedy}
-            {homeless.map((each) => (
-              <p key={each}>{each}</p>
-            ))}
-          </div>
-        </div>
+        <ProblemBanner problem={problem} testId="create-problem">
+          {homeless.map((each) => (
+            <p key={each}>{each}</p>
+          ))}
+        </ProblemBanner>
       )}
       <div className="actions form-end">
         <button type="submit" className="button primary" disabled={busy} data-testid="create">

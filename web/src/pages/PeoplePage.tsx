@@ -4,6 +4,7 @@ import { type FormEvent, useEffect, useState } from "react";
 import { Confirm, type Question } from "../components/Dialog";
 import { Choice, Field } from "../components/Field";
 import { Header } from "../components/Header";
+import { ProblemBanner } from "../components/ProblemBanner";
 import * as http from "../http";
 import { t } from "../i18n";
 import { moment } from "../i18n/numbers";
@@ -247,16 +248,7 @@ export function PeoplePage() {
             {t("people.audit")}
           </a>
         </div>
-        {problem && (
-          <div className="banner" role="alert">
-            <div>
-              <b>{problem.detail}</b> {problem.remedy}
-            </div>
-            <button type="button" className="button" onClick={refresh}>
-              {t("common.retry")}
-            </button>
-          </div>
-        )}
+        {problem && <ProblemBanner problem={problem} onRetry={refresh} />}
         <Invite onMade={refresh} />
         <section>
           <h2>{t("people.who")}</h2>

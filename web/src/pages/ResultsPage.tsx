@@ -10,6 +10,7 @@ import { factsOf } from "../components/ExperimentRow";
 import { ExperimentTabs } from "../components/ExperimentTabs";
 import { Header } from "../components/Header";
 import { Sprout } from "../components/icons";
+import { ProblemBanner } from "../components/ProblemBanner";
 import { ProblemCard } from "../components/ProblemCard";
 import { Smoothing, useSmoothing } from "../components/Smoothing";
 import { StatePill } from "../components/StatePill";
@@ -87,13 +88,7 @@ export function ResultsPage({ id }: { id: number }) {
           </a>
         </div>
         <ExperimentTabs id={id} here="results" />
-        {problem && (
-          <div className="banner" role="alert">
-            <div>
-              <b>{problem.detail}</b> {problem.remedy}
-            </div>
-          </div>
-        )}
+        {problem && <ProblemBanner problem={problem} />}
         {experiment && <Figures experiment={experiment} />}
         {!curves && !problem && (
           <div className="charts" role="status" aria-label={t("common.loading")}>

@@ -3,6 +3,7 @@
 import { useEffect } from "react";
 import { Header } from "../components/Header";
 import { Sprout } from "../components/icons";
+import { ProblemBanner } from "../components/ProblemBanner";
 import { StudyProgress, studyState } from "../components/StudyProgress";
 import * as http from "../http";
 import { t } from "../i18n";
@@ -68,16 +69,7 @@ export function StudiesPage() {
         <div className="title-row">
           <h1 className="title-text">{t("studies.title")}</h1>
         </div>
-        {problem && (
-          <div className="banner" role="alert">
-            <div>
-              <b>{problem.detail}</b> {problem.remedy}
-            </div>
-            <button type="button" className="button" onClick={refresh}>
-              {t("common.retry")}
-            </button>
-          </div>
-        )}
+        {problem && <ProblemBanner problem={problem} onRetry={refresh} />}
         {value === null && !problem && (
           <div className="rows" role="status" aria-label={t("common.loading")}>
             <div className="skeleton" />

@@ -2,6 +2,7 @@
 
 import { useCallback, useEffect } from "react";
 import { Header } from "../components/Header";
+import { ProblemBanner } from "../components/ProblemBanner";
 import { ProblemCard } from "../components/ProblemCard";
 import { StudyChart, StudyLegend } from "../components/StudyChart";
 import { StudyProgress, studyState } from "../components/StudyProgress";
@@ -90,13 +91,7 @@ export function StudyPage({ name }: { name: string }) {
             )}
           </div>
         </div>
-        {problem && (
-          <div className="banner" role="alert">
-            <div>
-              <b>{problem.detail}</b> {problem.remedy}
-            </div>
-          </div>
-        )}
+        {problem && <ProblemBanner problem={problem} />}
         {study && studyState(study) === "interrupted" && (
           <div className="banner">
             <div>
