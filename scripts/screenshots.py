@@ -1,8 +1,8 @@
 """Takes the pictures in docs/screenshots: every page, by day and by night, on a desk and on a phone.
 
-`make screenshots` starts a service of its own on robosuite, judges a few proposals as the task's rule would, has a
-noisy teacher judge some experiments on a table without physics, and looks.
-A page is added to PAGES. Look at the pictures before you commit them.
+`make screenshots` starts a service of its own on robosuite with a login, judges a few proposals as the task's rule
+would, has a noisy teacher judge some experiments on a table without physics, runs a small study, invites people, and
+looks. A page is added to PAGES; a test compares them with the page's code. Look at the pictures before you commit them.
 """
 
 from __future__ import annotations
@@ -31,16 +31,21 @@ from robot_adapters.registry import task as task_by_name
 OUT = Path(__file__).parent.parent / "docs" / "screenshots"
 SIZES = {"desk": (1440, 900), "phone": (390, 844)}
 THEMES = ("dark", "light")
+QUALITY = 80
 FLAGS = ("--no-sandbox", "--disable-dev-shm-usage", "--disable-background-networking", "--disable-component-update")
+SEED = (sys.executable, "-c", "from server.cli import app; app()")
 TASK = "stacking"
 CLICKS = 14
 TAUGHT = (60, 120, 180)
 """Labels of a teacher before each evaluation."""
-PATIENCE = 120.0
+STUDY = "first-subgoal"
+PATIENCE = 300.0
 
 
 def _as_it_is(page: Page) -> None:
     page.wait_for_load_state("networkidle")
+    page.locator("h1").first.wait_for()
+    page.wait_for_function("() => !document.querySelector('.skeleton[role=status]')")
 
 
 def _ready(page: Page) -> None:
@@ -77,6 +82,25 @@ def _asked(page: Page) -> None:
     _seen(page)
 
 
+def _operating(page: Page) -> None:
+    _ready(page)
+    panel = page.get_by_test_id("operator")
+    panel.locator("summary").click()
+    page.get_by_test_id("gripper-at").wait_for()
+    panel.scroll_into_view_if_needed()
+
+
+def _asked_for_a_name(page: Page) -> None:
+    _as_it_is(page)
+    page.locator("[name=name]").fill("Ann")
+
+
+def _studied(page: Page) -> None:
+    _as_it_is(page)
+    page.wait_for_selector("[data-testid=study-chart] canvas")
+    page.wait_for_function("() => [...document.images].every((image) => image.complete || image.loading === 'lazy')")
+
+
 def _past(page: Page) -> None:
     _ready(page)
     page.get_by_test_id("past").nth(1).click()
@@ -88,6 +112,7 @@ PAGES: dict[str, tuple[str, Callable[[Page], None]]] = {
     "trainer": ("/experiments/1", _ready),
     "trainer-tools": ("/experiments/1", _with_everything),
     "trainer-past": ("/experiments/1", _past),
+    "operator": ("/experiments/1", _operating),
     "practice": ("/experiments/1/practice", _seen),
     "new": ("/experiments/new?from=2", _settings),
     "results": ("/experiments/2/results", _charted),
@@ -98,23 +123,28 @@ PAGES: dict[str, tuple[str, Callable[[Page], None]]] = {
     "gallery": ("/experiments/2/gallery?purpose=training", _seen),
     "episode": ("/experiments/2/episodes/3", _seen),
     "critic": ("/experiments/2/critic", _asked),
+    "cameras": ("/experiments/1/cameras", _as_it_is),
     "studies": ("/studies", _as_it_is),
+    "study": (f"/studies/{STUDY}", _studied),
+    "people": ("/people", _as_it_is),
+    "sign-in": ("/join", _asked_for_a_name),
 }
 """Name -> path, and what makes it ready to be looked at."""
 
 
 @contextmanager
 def service(folder: Path) -> Iterator[httpx.Client]:
-    """A service of its own, with one experiment that waits to be judged."""
+    """A service of its own that asks who is there, and its owner's way in."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     settings = {"SEED_PORT": str(port), "SEED_DATA_DIR": str(folder), "SEED_CREATE_FIRST_EXPERIMENT": "false"}
-    process = subprocess.Popen(
-        [sys.executable, "-c", "from server.cli import app; app()", "serve"], env=os.environ | settings
-    )
+    environment = os.environ | settings | {"SEED_LOGIN": "1"}
+    token = subprocess.run([*SEED, "owner-token"], env=environment, check=True, capture_output=True, text=True).stdout
+    process = subprocess.Popen([*SEED, "serve"], env=environment)
     try:
-        with httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=60) as http:
+        carried = {"Authorization": f"Bearer {token.strip()}"}
+        with httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=60, headers=carried) as http:
             _until(lambda: _answers(http), "the service")
             yield http
     finally:
@@ -180,6 +210,24 @@ def teach(http: httpx.Client) -> None:
             http.post(f"{address}/finish").raise_for_status()
 
 
+def study(folder: Path) -> subprocess.Popen[bytes]:
+    """Begin a small study in the data directory, in a process of its own."""
+    small = ("--seeds", "2", "--budget", "24", "--evaluations", "3", "--rollouts", "3", "--adapter", "kinematic")
+    chosen = ("--tasks", "first_subgoal", "--algorithms", "seed,maple-aff", "--out", str(folder / "studies" / STUDY))
+    return subprocess.Popen([*SEED, "study", "paper-sim", *small, *chosen], stderr=subprocess.DEVNULL)
+
+
+def invite(http: httpx.Client) -> str:
+    """Let a trainer and a viewer in; the token of another invitation, not yet used."""
+    token = ""
+    for name, role, note in (("Ann", "trainer", "the lab course"), ("Vic", "viewer", "visitors"), ("", "trainer", "")):
+        body = {"role": role, "note": note, "uses": 5, "hours": 24}
+        token = http.post("/api/v1/invitations", json=body).raise_for_status().json()["token"]
+        if name:
+            http.post("/api/v1/sign-in", json={"token": token, "name": name, "bearer": True}).raise_for_status()
+    return token
+
+
 def _counted(http: httpx.Client, address: str, labels: int) -> bool:
     return bool(http.get(address).json()["counters"]["feedback"] >= labels)
 
@@ -198,8 +246,10 @@ def _open(http: httpx.Client, number: int) -> bool:
     return bool(items) and items[0]["number"] == number and items[0]["closed_at"] is None
 
 
-def look(browser: Browser, url: str, names: list[str]) -> None:
+def look(browser: Browser, http: httpx.Client, invitation: str, names: list[str]) -> None:
     """Take every picture of these pages."""
+    url = str(http.base_url)
+    owner = http.headers["Authorization"].removeprefix("Bearer ")
     for name, theme, (size, (width, height)) in itertools.product(names, THEMES, SIZES.items()):
         path, prepare = PAGES[name]
         context = browser.new_context(
@@ -207,10 +257,14 @@ def look(browser: Browser, url: str, names: list[str]) -> None:
         )
         page = context.new_page()
         page.add_init_script("""localStorage.setItem("seed.judging", '{"toured": true}')""")
+        if name == "sign-in":
+            path += f"#{invitation}"
+        else:
+            context.request.post(f"{url}/api/v1/sign-in", data={"token": owner})
         page.goto(url + path)
         prepare(page)
         target = OUT / f"{name}-{size}-{theme}.jpg"
-        page.screenshot(path=target, type="jpeg", quality=82, animations="disabled")
+        page.screenshot(path=target, type="jpeg", quality=QUALITY, animations="disabled")
         print(target.relative_to(OUT.parent.parent))
         context.close()
 
@@ -224,10 +278,14 @@ def main() -> None:
         parser.error(f"no page named {', '.join(sorted(unknown))}")
     OUT.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder, service(Path(folder)) as http, sync_playwright() as playwright:
+        studying = study(Path(folder))
         judge(http)
         teach(http)
+        invitation = invite(http)
+        if studying.wait():
+            raise SystemExit("the study failed")
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=list(FLAGS))
-        look(browser, str(http.base_url), names)
+        look(browser, http, invitation, names)
         browser.close()
 
 

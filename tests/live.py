@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import signal
 import socket
 import sqlite3
@@ -130,6 +131,12 @@ class LiveService:
         answer = self.http.post(f"/api/v1{path}", json=body)
         assert answer.is_success, f"POST {path}: {answer.status_code} {answer.text}"
         return dict(answer.json())
+
+    def sign_in(self) -> str:
+        """With SEED_LOGIN: the owner's token, as the first start printed it, goes with every request from now on."""
+        (token,) = re.findall(r"/join#(\S+)", self.log())
+        self.http.headers["Authorization"] = f"Bearer {token}"
+        return str(token)
 
     def get(self, path: str) -> dict[str, Any]:
         """GET below /api/v1 and expect success."""

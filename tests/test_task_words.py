@@ -15,8 +15,9 @@ ENGLISH = json.loads((ROOT / "web" / "src" / "i18n" / "locales" / "en.json").rea
 
 
 @pytest.mark.parametrize("name", ["reaching", "stacking", "sweeping", "collecting_toy", "cooking_hotdog"])
-def test_every_subgoal_and_what_to_do_by_hand_can_be_translated(name: str) -> None:
+def test_every_word_of_a_task_can_be_translated(name: str) -> None:
     task = registry.task(name)
-    for text in (*(subgoal.description for subgoal in task.subgoals), task.reset_by_hand):  # type: ignore[attr-defined]
+    by_hand: str = task.reset_by_hand  # type: ignore[attr-defined]
+    for text in (*(subgoal.description for subgoal in task.subgoals), by_hand, task.instruction):
         key = re.sub(r"[^a-z]+", "_", text.lower()).removeprefix("_")[:60].removesuffix("_")
         assert ENGLISH.get(key) == text, f'add "{key}" to the section "task" of every language'

@@ -9,7 +9,7 @@ export interface Frame {
   cell: [number, number];
 }
 
-const EDGE = { left: 46, right: 12, top: 12, bottom: 40 };
+const EDGE = { left: 58, right: 12, top: 12, bottom: 40 };
 const WIDE = 520;
 
 function ends(values: number[]): [number, number, number] {

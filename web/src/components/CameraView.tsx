@@ -1,7 +1,7 @@
 // One camera: the still picture a proposal is drawn on, and over it the live video while the robot moves.
 import { useEffect, useEffectEvent, useLayoutEffect, useRef } from "react";
 import type { FrameSink } from "../frames";
-import { skillName, t } from "../i18n";
+import { cameraName, skillName, t } from "../i18n";
 import { useSettings } from "../settings";
 import { useZoom } from "../useZoom";
 import type { FrameHeader, View } from "../wire";
@@ -69,7 +69,7 @@ export function CameraView(props: CameraViewProps) {
   const frame = useRef<HTMLElement>(null);
   const { zoom, stroke, nearer, farther, whole } = useZoom(frame, props.onSwipe);
   const { ghost, workspace } = useSettings();
-  const name = view.camera.replaceAll("_", " ");
+  const name = cameraName(view.camera);
   const zoomed = zoom.scale > 1;
   return (
     <figure

@@ -133,7 +133,7 @@ function Axes({ map, px, py, width, height }: { map: CriticMap; width: number; h
         </text>
       ))}
       {ticks(y0, y1, 6).map((y) => (
-        <text key={y} x={40} y={py(y) + 4} textAnchor="end">
+        <text key={y} x={52} y={py(y) + 4} textAnchor="end">
           {decimal(y)}
         </text>
       ))}

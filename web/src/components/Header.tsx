@@ -14,7 +14,7 @@ export function Header(props: { back?: boolean; stop?: boolean; experiment?: num
         <span>SEED</span>
       </Link>
       {props.back && (
-        <Link to="/" className="crumb">
+        <Link to="/" className="crumb home">
           {t("header.experiments")}
         </Link>
       )}

@@ -1,6 +1,6 @@
 // Plays a motion again, slowly if wanted: the live pictures of an execution, or those kept of an incident.
 import { useEffect, useEffectEvent, useMemo, useState } from "react";
-import { t } from "../i18n";
+import { cameraName, t } from "../i18n";
 import { decimal } from "../i18n/numbers";
 import { type Reel, reelOf, type Shot, shotAt } from "../player";
 
@@ -69,8 +69,10 @@ export function Player({ shots }: { shots: Shot[] }) {
               className="pictured"
               style={{ aspectRatio: `${track.width} / ${track.height}` }}
             >
-              {address && <img src={address} alt={t("player.picture", { camera: track.camera })} />}
-              <figcaption className="chip camera">{track.camera.replaceAll("_", " ")}</figcaption>
+              {address && (
+                <img src={address} alt={t("player.picture", { camera: cameraName(track.camera) })} />
+              )}
+              <figcaption className="chip camera">{cameraName(track.camera)}</figcaption>
             </figure>
           );
         })}

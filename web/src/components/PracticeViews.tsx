@@ -2,7 +2,7 @@
 
 import { useEffect, useState } from "react";
 import { at } from "../base";
-import { skillName, t } from "../i18n";
+import { cameraName, skillName, t } from "../i18n";
 import type { Overlay, PracticeCard } from "../wire";
 import { OverlayDrawing } from "./OverlayDrawing";
 
@@ -50,7 +50,7 @@ export function PracticeViews({ card, overlays, right, onDrawn }: PracticeViewsP
               ? t("practice.rightSkill", { skill: skillName(right) })
               : skillName(card.skill)}
           </span>
-          <span className="chip camera">{view.camera}</span>
+          <span className="chip camera">{cameraName(view.camera)}</span>
         </figure>
       ))}
     </div>

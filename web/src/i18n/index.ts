@@ -45,6 +45,13 @@ export function skillName(skill: string): string {
   return library.exists(`skill.${skill}`) ? library.t(`skill.${skill as "pick"}`) : skill;
 }
 
+/** A camera as people call it; one of a foreign task or robot is called what it is called there. */
+export function cameraName(camera: string): string {
+  return library.exists(`camera.name_${camera}`)
+    ? library.t(`camera.name_${camera as "left"}`)
+    : camera.replaceAll("_", " ");
+}
+
 /** What a task says, in the reader's language where it is one of ours; a foreign task speaks for itself. */
 export function taskWords(text: string): string {
   const key = text

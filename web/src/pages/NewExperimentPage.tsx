@@ -214,7 +214,7 @@ function Choices({ catalogue, draft, problem, onChange }: BasicsProps) {
         label={t("create.task")}
         name="task"
         value={draft.task}
-        hint={catalogue.tasks.find(({ name }) => name === draft.task)?.instruction}
+        hint={taskWords(catalogue.tasks.find(({ name }) => name === draft.task)?.instruction ?? "")}
         options={catalogue.tasks.map(({ name, title }) => ({ value: name, label: taskWords(title) }))}
         error={errorAt(problem, "task")}
         onChange={setTask}

@@ -7,7 +7,7 @@ import { PracticeCorrection, PracticeScore } from "../components/PracticeCorrect
 import { PracticeViews } from "../components/PracticeViews";
 import { ProblemCard } from "../components/ProblemCard";
 import * as http from "../http";
-import { t } from "../i18n";
+import { t, taskWords } from "../i18n";
 import { newId } from "../ids";
 import { Link } from "../router";
 import type { PracticeCard, PracticeResult, Problem, Value } from "../wire";
@@ -97,7 +97,7 @@ export function PracticePage({ id }: { id: number }) {
         <div className="title-row">
           <div className="title-text">
             <h1>{t("practice.title")}</h1>
-            <p className="soft">{card.instruction}</p>
+            <p className="soft">{taskWords(card.instruction)}</p>
           </div>
           <Link to={`/experiments/${id}`} className="button">
             {t("practice.toExperiment")}
@@ -116,7 +116,8 @@ export function PracticePage({ id }: { id: number }) {
             <div className="dock">
               {problem && <p className="error" role="alert">{`${problem.detail} ${problem.remedy}`}</p>}
               <p className="practice-next">
-                <span className="soft">{t("agent.next")}</span> <b data-testid="subgoal">{card.subgoal}</b>
+                <span className="soft">{t("agent.next")}</span>{" "}
+                <b data-testid="subgoal">{taskWords(card.subgoal)}</b>
               </p>
               {result && (
                 <Correction
