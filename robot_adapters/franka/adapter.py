@@ -34,19 +34,18 @@ from robot_adapters.franka import FrankaSettings, connecting
 from robot_adapters.franka.arm import CONTROL_HZ
 from robot_adapters.franka.backend import WORDS, ArmFault, Mode
 from robot_adapters.franka.dead_man import DeadMan
-from robot_adapters.franka.eyes import Calibrated, EyesFactory, Hand, Sight
+from robot_adapters.franka.eyes import Calibrated, EyesFactory, Hand, Sight, must_be_known, must_be_unmoved
+from robot_adapters.franka.holding import gripped, holds
 from robot_adapters.franka.limits import Refused
 from robot_adapters.guiding import Guide
 from robot_adapters.projection import overlay
 from robot_adapters.registry import task as task_by_name
-from robot_adapters.skills import GRASPED_WIDTH, clear_yaw, run_skill
+from robot_adapters.skills import clear_yaw, run_skill
 from robot_adapters.tasks.episode import Episode
 
 log = logging.getLogger(__name__)
 
 EYES = "seed.eyes"
-HELD_WITHIN = 0.05
-"""m from the grip site: an object's middle is no farther while fingers hold it."""
 JOINT_LIMITS = (
     (-2.7437, 2.7437), (-1.7837, 1.7837), (-2.9007, 2.9007), (-3.0421, -0.1518),
     (-2.8065, 2.8065), (0.5445, 4.5169), (-3.0159, 3.0159),
@@ -74,6 +73,9 @@ class FrankaAdapter:
         self._dead_man = DeadMan(self.arm, settings.dead_man)
         self._sight: Sight | None = None
         self._observation: Observation | None = None
+        self._refusal: str | None = None
+        self._grasp: tuple[Array, float] | None = None
+        """Where the fingers closed last, (3,) m robot base frame and rad; None while they are open."""
         self._episode = Episode(self._task, self._scene)
         self._shift = np.array(connecting.offset(settings, self._task))
         facts = self.arm.backend.facts()
@@ -107,14 +109,11 @@ class FrankaAdapter:
         """
         self._must_be_well()
         if self._observation is None:
-            if refusal := self._eyes.refusal():
-                raise Unavailable(refusal, remedy="put that right, then resume")
+            self._must_see()
             self._sight = None
             scene = self._episode.scene()
             assert self._sight is not None
-            if missing := self._sight.missing:
-                lost = "; ".join(f"{name}: {why}" for name, why in sorted(missing.items()))
-                raise Unavailable(f"not everything is in sight: {lost}", remedy="make it visible, then resume")
+            must_be_known(self._sight)
             frames = {name: self._eyes.frame(name, still=True) for name in self.info.cameras}
             taken = min(self._sight.taken_at.values(), default=time.time())
             self._observation = Observation(uuid.uuid4().hex, self._task.state(scene), frames, taken)
@@ -125,11 +124,12 @@ class FrankaAdapter:
 
         Raises:
             InvalidCall: the call doesn't fit the task. Nothing has moved.
-            Unavailable: the arm can't be used now. Nothing has moved.
+            Unavailable: the arm can't be used now, or what is seen isn't what was judged. The arm hasn't moved.
         """
         spec = check_call(call, self._task.skills)
         self._must_be_well()
         before = self.observe().state
+        self._must_still_be_so()
         yaw = self._yaw(call, spec)
         self._observation = self._sight = None
         end, steps, broken = self._run(should_stop, on_step, lambda stop, step: run_skill(
@@ -219,21 +219,21 @@ class FrankaAdapter:
         here, _ = self.arm.pose()
         x, y, z = (float(v) for v in here)
         fx, fy, fz = (float(v) for v in state.force)
-        refusal = self._eyes.refusal()
         return Telemetry(
             joints=tuple(float(q) for q in state.joints),
             joint_limits=JOINT_LIMITS,
             gripper=(x, y, z),
             opening=self.arm.gripper_width(),
             force=(fx, fy, fz),
-            calibration="missing" if refusal else "measured",
-            calibration_detail=refusal or "",
+            calibration="missing" if self._refusal else "measured",
+            calibration_detail=self._refusal or "",
             mode=state.mode.value,
             words=WORDS[state.mode],
         )
 
     def refresh(self) -> None:
-        """Look at the arm while nothing is asked of it, so that what it tells of itself is so."""
+        """Look at arm and cameras while nothing is asked of them, so that what they tell of themselves is so."""
+        self._refusal = self._eyes.refusal()
         try:
             self.arm.look()
         except ArmFault as fault:
@@ -258,6 +258,7 @@ class FrankaAdapter:
         def count() -> None:
             nonlocal steps
             steps += 1
+            self._note_grasp()
             on_step()
 
         stop = self._dead_man.guarding(should_stop)
@@ -295,31 +296,51 @@ class FrankaAdapter:
             why = f" ({', '.join(state.errors)})" if state.errors else ""
             raise Unavailable(f"the arm is in state {state.mode}{why}", remedy=WORDS[state.mode])
 
+    def _must_see(self) -> None:
+        self._refusal = self._eyes.refusal()
+        if self._refusal is not None:
+            raise Unavailable(self._refusal, remedy="put that right, then resume")
+
+    def _must_still_be_so(self) -> None:
+        """Look once more before the arm moves: people and cameras may have moved while somebody judged."""
+        assert self._sight is not None
+        try:
+            self._must_see()
+            now = self._look()
+            must_be_known(now)
+            must_be_unmoved(self._sight, now)
+        except Unavailable:
+            self._observation = None
+            raise
+
+    def _note_grasp(self) -> None:
+        if not self.arm.gripper_closed():
+            self._grasp = None
+        elif self._grasp is None:
+            here, yaw = self.arm.pose()
+            self._grasp = here + self._shift, yaw
+
+    def _look(self) -> Sight:
+        here, yaw = self.arm.pose()
+        width, closed = self.arm.gripper_width(), self.arm.gripper_closed()
+        return self._eyes.look(Hand(here + self._shift, yaw, width, closed, self._grasp))
+
     def _scene(self) -> Scene:
         """What is seen, in the task's frame, with what the fingers hold."""
         if self._sight is None:
-            here, yaw = self.arm.pose()
-            width, closed = self.arm.gripper_width(), self.arm.gripper_closed()
-            self._sight = self._eyes.look(Hand(here + self._shift, yaw, width, closed))
+            self._sight = self._look()
         here, _ = self.arm.pose()
         objects = {name: at - self._shift for name, at in self._sight.objects.items()}
+        closed = self.arm.gripper_closed()
+        held = holds(self.arm.gripper_width(), closed=closed)
         return Scene(
             objects=objects,
             gripper=here,
-            gripper_closed=self.arm.gripper_closed(),
-            held=self._held(objects, here),
+            gripper_closed=closed,
+            held=gripped(self._task.objects, objects, self._sight.yaws, here) if held else None,
             joints=self._sight.joints,
             tilts=self._sight.tilts,
         )
-
-    def _held(self, objects: Mapping[str, Array], here: Array) -> str | None:
-        """The object between closed fingers that don't touch each other."""
-        if not self.arm.gripper_closed() or self.arm.gripper_width() < GRASPED_WIDTH or not objects:
-            return None
-        nearest = min(objects, key=lambda name: float(np.linalg.norm(objects[name] - here)))
-        grip = next((spec.grip for spec in self._task.objects if spec.name == nearest), None)
-        at = objects[nearest] + (np.array(grip.at) if grip is not None else 0.0)
-        return nearest if float(np.linalg.norm(at - here)) < HELD_WITHIN else None
 
     def _yaw(self, call: SkillCall, spec: SkillSpec) -> float:
         """The gripper's angle, rad, for a call that doesn't say: clear of neighbours to pick, else as it is."""

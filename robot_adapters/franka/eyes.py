@@ -9,8 +9,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
-from robot_adapters.base import Array, CameraCalibration, CameraFrame
+import numpy as np
+
+from robot_adapters.base import Array, CameraCalibration, CameraFrame, Unavailable
 from robot_adapters.guiding import Guide
+
+STIRRED = 0.010
+"""m by which nothing may have moved between the picture that was judged and the motion: fingers forgive 12 mm."""
 
 
 @dataclass(frozen=True)
@@ -18,14 +23,15 @@ class Hand:
     """What the arm knows that helps seeing: a held object is where the grip site is, and hidden by fingers.
 
     grip_site: (3,) m, robot base frame. yaw: rad, 0 where the fingers close along y. width: m between the fingers.
-    closed: whether they were last commanded to close. moving: whether the arm may have moved since the last look.
+    closed: whether they were last commanded to close. grasp: where they did, (3,) m and rad as above; None if nobody
+    watched: what they took there has moved with them since.
     """
 
     grip_site: Array
     yaw: float
     width: float
     closed: bool
-    moving: bool = False
+    grasp: tuple[Array, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -33,7 +39,8 @@ class Sight:
     """What is known of the scene, as one snapshot.
 
     objects: name -> (3,) m, base frame, of every movable object that is known. joints: name -> m from closed, of what
-    slides. tilts: name -> rad from upright. taken_at: name -> seconds since the epoch at which each was last measured.
+    slides. tilts: name -> rad from upright. yaws: name -> rad about z, if known. taken_at: name -> seconds since the
+    epoch at which each was last measured.
     missing: name -> why it isn't known well enough to act on, in words for the trainer: `hidden for 3 s`. An object
     may be in `objects` (where it was last) and in `missing`: then nothing may be proposed.
     """
@@ -42,7 +49,35 @@ class Sight:
     taken_at: Mapping[str, float]
     joints: Mapping[str, float] = field(default_factory=dict)
     tilts: Mapping[str, float] = field(default_factory=dict)
+    yaws: Mapping[str, float] = field(default_factory=dict)
     missing: Mapping[str, str] = field(default_factory=dict)
+
+
+def must_be_known(sight: Sight) -> None:
+    """See that nothing is missing.
+
+    Raises:
+        Unavailable: something is; it says what, and why.
+    """
+    if sight.missing:
+        lost = "; ".join(f"{name}: {why}" for name, why in sorted(sight.missing.items()))
+        raise Unavailable(f"not everything is in sight: {lost}", remedy="make it visible, then resume")
+
+
+def must_be_unmoved(then: Sight, now: Sight) -> None:
+    """See that everything is where it was.
+
+    Raises:
+        Unavailable: something was moved; it says what, and how far.
+    """
+    away = {n: float(np.linalg.norm(now.objects[n] - at)) for n, at in then.objects.items() if n in now.objects}
+    away |= {n: abs(now.joints[n] - at) for n, at in then.joints.items() if n in now.joints}
+    farthest = max(away, key=lambda name: away[name], default="")
+    if farthest and away[farthest] > STIRRED:
+        raise Unavailable(
+            f"{farthest} was moved by {away[farthest] * 1000:.0f} mm since the picture was taken",
+            remedy="judge a new proposal",
+        )
 
 
 class Eyes(Protocol):
@@ -56,7 +91,10 @@ class Eyes(Protocol):
         """How each camera maps the robot base frame to its full-size stills."""
 
     def refusal(self) -> str | None:
-        """Why nothing may be proposed whatever is seen, in words (a camera has moved, is gone); None if all is well."""
+        """Why nothing may be proposed whatever is seen, in words (a camera has moved, is gone); None if all is well.
+
+        Not between two set-points: it may look for that at the newest pictures.
+        """
 
     def look(self, hand: Hand) -> Sight:
         """The scene now; new pictures are taken where the last are old."""

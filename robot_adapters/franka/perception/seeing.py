@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -92,8 +92,8 @@ class Perception:
         return {name: eye.calibration.view.calibration() for name, eye in self._eyes.items() if eye.calibration}
 
     def refusal(self) -> str | None:
-        """See `Eyes`. While something is wrong, looks once a second whether it still is."""
-        if self._trouble() is not None and time.monotonic() - self._checked > RECHECK:
+        """See `Eyes`. Looks once a second how the cameras stand, without waiting for new pictures."""
+        if time.monotonic() - self._checked > RECHECK:
             self.recheck()
         return self._trouble()
 
@@ -113,7 +113,7 @@ class Perception:
         taken = [eye.picture.taken_at for eye in self._eyes.values() if eye.picture is not None]
         sight = self._tracker.update(found, hand, min(taken, default=time.time()))
         if (trouble := self._trouble()) is not None:
-            return Sight(sight.objects, sight.taken_at, sight.joints, sight.tilts, dict.fromkeys(wanted, trouble))
+            return replace(sight, missing=dict.fromkeys(wanted, trouble))
         return sight
 
     def frame(self, camera: str, *, still: bool) -> CameraFrame:

@@ -9,13 +9,11 @@ import numpy as np
 
 from robot_adapters.base import Array
 from robot_adapters.franka.eyes import Hand, Sight
+from robot_adapters.franka.holding import gripped, holds, turned
 from robot_adapters.franka.perception.locating import Found
 from robot_adapters.franka.perception.tagging import Tagging
-from robot_adapters.skills import GRASPED_WIDTH
 from robot_adapters.tasks.base import ObjectSpec, Task
 
-HELD_WITHIN = 0.04
-"""m from the grip site to where an object is gripped, while the fingers hold it."""
 WANDERED = 0.03
 """m from where the hand should have it at which an object that is seen isn't in the hand any more."""
 ON_TOP = 0.012
@@ -26,13 +24,17 @@ CARRIED = 0.05
 
 @dataclass
 class _Known:
-    """An object: where it was last, when that was measured, and how it lies in the hand (offset, yaw) if it does."""
+    """An object: where it was last, when that was measured, and how it lies in the hand (offset, yaw) if it does.
+
+    let_go: whether a hand let go of it since it was seen: it may have fallen anywhere.
+    """
 
     position: Array
     yaw: float
     seen_at: float
     tilt: float = 0.0
     held: tuple[Array, float] | None = None
+    let_go: bool = False
 
 
 class Tracker:
@@ -54,11 +56,12 @@ class Tracker:
         for name, seen in found.items():
             known = self._known.get(name)
             held = known.held if known is not None else None
-            if held is not None and np.linalg.norm(seen.position - _in_hand(hand, held)[0]) > WANDERED:
-                held = None
+            if held is not None:
+                stayed = np.linalg.norm(seen.position - _in_hand(hand, held)[0]) <= WANDERED
+                held = _of_hand(hand.grip_site, hand.yaw, seen.position, seen.yaw) if stayed else None
             tilt = seen.tilt if seen.tilt is not None else 0.0
             self._known[name] = _Known(seen.position, seen.yaw, now, tilt, held)
-        self._grip(hand)
+        self._grip(hand, found)
         for name, known in self._known.items():
             if name in found:
                 continue
@@ -80,27 +83,32 @@ class Tracker:
             if name in found and name in self._known
         }
 
-    def _grip(self, hand: Hand) -> None:
-        """Put the nearest object into a hand that has closed on something; take it out of one that is open."""
-        holds = hand.closed and hand.width >= GRASPED_WIDTH
+    def _grip(self, hand: Hand, found: Mapping[str, Found]) -> None:
+        """Put the nearest object into a hand that has closed on something; take it out of one that has let go.
+
+        What is seen has come along with the hand; what isn't was last seen where the hand closed.
+        """
         held = [name for name, known in self._known.items() if known.held is not None]
-        if not holds:
+        if not holds(hand.width, closed=hand.closed):
             for name in held:
-                self._known[name].held = None
+                self._known[name].held, self._known[name].let_go = None, name not in found
             return
         if held:
             return
-        movable = {n: k for n, k in self._known.items() if self._specs[n].movable}
-        distances = {n: float(np.linalg.norm(self._grip_of(n, k) - hand.grip_site)) for n, k in movable.items()}
-        nearest = min(distances, key=lambda n: distances[n], default=None)
-        if nearest is not None and distances[nearest] <= HELD_WITHIN:
-            known = movable[nearest]
-            offset = _turned(-hand.yaw, known.position - hand.grip_site)
-            known.held = offset, known.yaw - hand.yaw
-
-    def _grip_of(self, name: str, known: _Known) -> Array:
-        grip = self._specs[name].grip
-        return known.position + (_turned(known.yaw, np.array(grip.at)) if grip is not None else 0.0)
+        yaws = {name: known.yaw for name, known in self._known.items()}
+        seen = {name: known.position for name, known in self._known.items() if name in found}
+        if (taken := gripped(self._specs.values(), seen, yaws, hand.grip_site)) is not None:
+            known = self._known[taken]
+            known.held = _of_hand(hand.grip_site, hand.yaw, known.position, known.yaw)
+            return
+        unseen = {name: known.position for name, known in self._known.items() if name not in found}
+        site, yaw = hand.grasp or (hand.grip_site, hand.yaw)
+        if (taken := gripped(self._specs.values(), unseen, yaws, site)) is not None:
+            offset, turn = _of_hand(site, yaw, self._known[taken].position, self._known[taken].yaw)
+            # the fingers close along their y, and so have its grip in their middle
+            grip = self._specs[taken].grip
+            offset[1] = -turned(turn, np.array(grip.at))[1] if grip is not None else 0.0
+            self._known[taken].held = offset, turn
 
     def _carrier(self, known: _Known, name: str) -> str | None:
         """The slider in whose tray it lies."""
@@ -131,6 +139,8 @@ class Tracker:
             known = self._known.get(name)
             if known is None:
                 missing[name] = "not seen yet"
+            elif known.let_go:
+                missing[name] = "let go of, and not seen since"
             elif now - known.seen_at > self._lost_after:
                 missing[name] = f"not seen for {now - known.seen_at:.0f} s"
         return Sight(
@@ -142,19 +152,20 @@ class Tracker:
                 if n in self._known
             },
             tilts={n: k.tilt for n, k in self._known.items() if n not in sliding},
+            yaws={n: k.yaw for n, k in self._known.items() if n not in sliding},
             missing=missing,
         )
 
 
 def _in_hand(hand: Hand, held: tuple[Array, float]) -> tuple[Array, float]:
-    """Where an object is that lies so in the hand, and its yaw."""
+    """Where an object is that lies so in the hand, (3,) m, base frame, and its yaw."""
     offset, yaw = held
-    return hand.grip_site + _turned(hand.yaw, offset), yaw + hand.yaw
+    return hand.grip_site + turned(hand.yaw, offset), yaw + hand.yaw
 
 
-def _turned(yaw: float, vector: Array) -> Array:
-    c, s = np.cos(yaw), np.sin(yaw)
-    return np.array([c * vector[0] - s * vector[1], s * vector[0] + c * vector[1], vector[2]])
+def _of_hand(site: Array, yaw: float, position: Array, turn: float) -> tuple[Array, float]:
+    """How an object at `position`, turned by `turn`, lies in a hand at `site`: (3,) m in the hand's frame, and rad."""
+    return turned(-yaw, position - site), turn - yaw
 
 
 def _half_height(spec: ObjectSpec) -> float:

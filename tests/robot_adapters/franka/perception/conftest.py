@@ -16,6 +16,7 @@ from robot_adapters.franka.perception.rays import View
 from robot_adapters.franka.perception.tagging import FACES, load
 from robot_adapters.registry import task as task_by_name
 from robot_adapters.tasks.base import ObjectSpec, Part
+from tests.robot_adapters.franka.perception.filming import Film
 from tests.robot_adapters.franka.perception.rendering import EYES, Patch, Solid, Stage, cube, tag_patch, view
 
 TASKS = ("stacking", "sweeping", "collecting_toy", "cooking_hotdog")
@@ -35,7 +36,15 @@ def tagged(task: str) -> dict[str, Solid]:
 
 def _parts(spec: ObjectSpec) -> tuple[Part, ...]:
     half = spec.half_size
-    return spec.parts or (Part((0.0, 0.0, 0.0), (half, half, half), PLAIN),)
+    return tuple(_hollow(part, spec) for part in spec.parts) or (Part((0.0, 0.0, 0.0), (half, half, half), PLAIN),)
+
+
+def _hollow(part: Part, spec: ObjectSpec) -> Part:
+    """A dish as its floor: what lies in it is seen over its rim."""
+    if part.shape != "disc" or spec.seat is None:
+        return part
+    bottom, floor = part.centre[2] - part.half[2], spec.seat.at[2]
+    return Part((*part.centre[:2], (bottom + floor) / 2), (*part.half[:2], (floor - bottom) / 2), part.colour, "disc")
 
 
 def board_solid() -> Solid:
@@ -69,6 +78,12 @@ def stage(whole_stage: Stage, views: dict[str, View]) -> Stage:
     for name, seen in views.items():
         whole_stage.stand(name, seen)
     return whole_stage
+
+
+@pytest.fixture
+def film(stage: Stage, tmp_path: Path) -> Film:
+    """Takes pictures of the stage."""
+    return Film(stage, tmp_path)
 
 
 Calibrate = Callable[..., Path]

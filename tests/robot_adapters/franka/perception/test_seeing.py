@@ -4,68 +4,26 @@ from __future__ import annotations
 
 import io
 import os
-from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from PIL import Image
 
-from robot_adapters.base import Array, Unavailable
+from robot_adapters.base import Unavailable
 from robot_adapters.franka.eyes import Hand
 from robot_adapters.franka.perception import PerceptionSettings, perceive
 from robot_adapters.franka.perception.calibration import Calibration, save
 from robot_adapters.franka.perception.rays import View
 from robot_adapters.franka.perception.seeing import Perception
 from robot_adapters.projection import project
-from robot_adapters.registry import task as task_by_name
 from tests.robot_adapters.franka.perception.conftest import TASKS, Calibrate
-from tests.robot_adapters.franka.perception.recording import record
+from tests.robot_adapters.franka.perception.filming import Film, lay
 from tests.robot_adapters.franka.perception.rendering import EYES, TABLE, Stage, view
 
 AWAY = Hand(np.array([0.31, 0.0, 0.3]), 0.0, 0.08, False)
 GENEROUS = 0.002
 """m; a bound on every object, several times what is expected of a working pipeline."""
-
-
-class Film:
-    """Takes one picture of each camera after the other, and makes recordings of them."""
-
-    def __init__(self, stage: Stage, folder: Path) -> None:
-        self._stage, self._folder = stage, folder
-        self._taken: dict[str, list[NDArray[np.uint8]]] = {name: [] for name in EYES}
-
-    def shoot(self, times: int = 1) -> None:
-        """What both cameras see now."""
-        for name, taken in self._taken.items():
-            taken.extend(self._stage.draw(name) for _ in range(times))
-
-    def sources(self, views: dict[str, View]) -> dict[str, str]:
-        """The recordings, a camera's each."""
-        return {n: record(self._folder / f"{n}.db3", views[n].lens, taken) for n, taken in self._taken.items()}
-
-
-@pytest.fixture
-def film(stage: Stage, tmp_path: Path) -> Film:
-    return Film(stage, tmp_path)
-
-
-def lay(stage: Stage, task: str, seed: int) -> tuple[dict[str, Array], dict[str, float]]:
-    """The task's objects as an episode starts, turned a little; where they are, and what slides."""
-    staged, rng = task_by_name(task), np.random.default_rng(seed)
-    layout = staged.sample_layout(rng)
-    slides = {s.name: s.fixed for s in staged.objects if s.shape == "slider" and s.fixed is not None}
-    joints = {}
-    for name, at in layout.items():
-        if name == "gripper":
-            continue
-        if (closed := slides.get(name)) is not None:
-            joints[name] = float(at[0])
-            stage.place(f"{task}/{name}", np.array(closed) - [joints[name], 0.0, 0.0])
-        else:
-            stage.place(f"{task}/{name}", at, float(rng.uniform(-0.3, 0.3)))
-    return {n: a for n, a in layout.items() if n != "gripper" and n not in slides}, joints
 
 
 @pytest.mark.parametrize("task", TASKS)
