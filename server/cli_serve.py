@@ -6,6 +6,7 @@ import asyncio
 import errno
 import signal
 import socket
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
@@ -20,6 +21,9 @@ LARGEST_MESSAGE = 64 * 1024
 """Bytes of a WebSocket message; a larger one closes the connection with 1009. Ours are below 300."""
 GRACE = 3
 """Seconds that requests which are still being answered get when the service ends."""
+GIL_S = 0.0005
+"""Seconds that a thread may compute before another gets its turn. Python's own 5 ms would be waited for at every
+message of a fan-out, because each send gives the interpreter up, while the store's writer is busy."""
 
 
 async def run_server(settings: Settings, *, announce: Callable[[str], None]) -> None:
@@ -28,6 +32,7 @@ async def run_server(settings: Settings, *, announce: Callable[[str], None]) -> 
     Raises:
         ServiceError: the port or the data directory can't be had. StoreError: the database can't be used.
     """
+    sys.setswitchinterval(GIL_S)
     listener = _listen(settings.host, settings.port)
     with listener:
         async with opened(settings) as service:

@@ -9,7 +9,7 @@ from collections.abc import AsyncIterator, Callable, Iterable, Mapping, Sequence
 from typing import Any, Literal
 
 from sqlalchemy import select
-from sqlalchemy.orm import Session
+from sqlalchemy.orm import Session, selectinload
 
 from server import store_audit, store_records
 from server.models import FeedbackRow, MetricRow, ProposalRow
@@ -100,6 +100,7 @@ def _reading(experiment_id: int, after: int) -> Callable[[Session], tuple[list[d
     def read(session: Session) -> tuple[list[dict[str, Any]], int]:
         query = (
             select(FeedbackRow, ProposalRow)
+            .options(selectinload(FeedbackRow.relabels))
             .join(ProposalRow, ProposalRow.id == FeedbackRow.proposal_id)
             .where(
                 FeedbackRow.experiment_id == experiment_id,

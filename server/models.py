@@ -8,13 +8,18 @@ from typing import TYPE_CHECKING, Any
 from sqlalchemy import (
     JSON,
     CheckConstraint,
+    ColumnElement,
     ForeignKey,
     Index,
     String,
     Text,
     UniqueConstraint,
+    case,
+    exists,
+    select,
     text,
 )
+from sqlalchemy.ext.hybrid import hybrid_property
 from sqlalchemy.orm import Mapped, mapped_column, relationship
 
 from server.models_base import Base, one_of
@@ -82,7 +87,7 @@ class ExperimentRow(Base):
     created_at: Mapped[datetime]
     updated_at: Mapped[datetime]
 
-    tags: Mapped[list[TagRow]] = relationship(lazy="selectin", order_by="TagRow.tag", cascade="all, delete-orphan")
+    tags: Mapped[list[TagRow]] = relationship(order_by="TagRow.tag", cascade="all, delete-orphan")
 
 
 class EpisodeRow(Base):
@@ -176,13 +181,15 @@ class ProposalRow(Base):
 
     episode: Mapped[EpisodeRow] = relationship(lazy="joined", innerjoin=True)
     observation: Mapped[ObservationRow] = relationship(lazy="joined", innerjoin=True)
-    votes: Mapped[list[FeedbackRow]] = relationship(
+    heard: Mapped[list[TrainerRow]] = relationship(
+        secondary="feedback",
         primaryjoin="and_(FeedbackRow.proposal_id == ProposalRow.id, FeedbackRow.status == 'stored',"
         " FeedbackRow.undone_at.is_(None))",
-        lazy="selectin",
+        secondaryjoin="FeedbackRow.trainer_id == TrainerRow.id",
         order_by="FeedbackRow.id",
         viewonly=True,
     )
+    """Whose votes count, in the order they came. Read when first asked for: whoever reads many rows loads it."""
 
 
 class TrainerRow(Base):
@@ -228,12 +235,26 @@ class FeedbackRow(Base):
     estimate_shown: Mapped[bool | None]
 
     trainer: Mapped[TrainerRow] = relationship(lazy="joined", innerjoin=True)
-    relabels: Mapped[list[RelabelRow]] = relationship(lazy="selectin", order_by="RelabelRow.id")
+    relabels: Mapped[list[RelabelRow]] = relationship(order_by="RelabelRow.id")
 
-    @property
+    @hybrid_property
     def label(self) -> int | None:
-        """What it says by now; None: can't tell."""
+        """What it says by now, in Python and in a query; None, null: can't tell."""
         return self.relabels[-1].value if self.relabels else self.value
+
+    @label.inplace.expression
+    @classmethod
+    def _label_in_query(cls) -> ColumnElement[int | None]:
+        newest = (
+            select(RelabelRow.value)
+            .where(RelabelRow.feedback_id == cls.id)
+            .order_by(RelabelRow.id.desc())
+            .limit(1)
+            .correlate(cls)
+            .scalar_subquery()
+        )
+        corrected = exists().where(RelabelRow.feedback_id == cls.id).correlate(cls)
+        return case((corrected, newest), else_=cls.value)
 
 
 class RelabelRow(Base):

@@ -297,7 +297,7 @@ class Store(Reads):
 
     async def add_metrics(self, experiment_id: int, feedback: int, values: Mapping[str, float]) -> schemas.MetricPoint:
         """A point of the charts at an amount of feedback."""
-        return await self._write(lambda s: wire.metric(store_records.add_metrics(s, experiment_id, feedback, values)))
+        return await self._write(lambda s: store_records.add_metrics(s, experiment_id, feedback, values))
 
     async def create_evaluation(
         self,

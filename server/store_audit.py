@@ -5,10 +5,11 @@ from __future__ import annotations
 from datetime import UTC, datetime
 from typing import Any
 
-from sqlalchemy import Select, select
+from sqlalchemy import Select, insert, select
 from sqlalchemy.orm import Session
 
 from server import store_pages
+from server.models_base import table
 from server.models_people import AuditRow
 from server.principal import SERVICE, Principal
 from server.schemas_people import AuditEntry, AuditPage
@@ -22,6 +23,8 @@ DECISIONS = frozenset(
 )
 """Kinds of lines of an experiment's journal that are decisions. Clicks and access are recorded by name."""
 
+_WRITE = insert(table(AuditRow))
+
 
 def record(
     session: Session, action: str, experiment_id: int | None = None, *, by: str | None = None, **subject: Any
@@ -31,18 +34,17 @@ def record(
     by: the name that a client gave where nobody signs in; with a login it says nothing.
     """
     who: Principal = session.info.get("who", SERVICE)
-    session.add(
-        AuditRow(
-            at=datetime.now(UTC),
-            name=by if by is not None and who.local else who.name,
-            role=who.role.value,
-            person_id=who.person_id,
-            session_id=who.session_id,
-            experiment_id=experiment_id,
-            action=action,
-            subject=subject,
-        )
-    )
+    entry = {
+        "at": datetime.now(UTC),
+        "name": by if by is not None and who.local else who.name,
+        "role": who.role.value,
+        "person_id": who.person_id,
+        "session_id": who.session_id,
+        "experiment_id": experiment_id,
+        "action": action,
+        "subject": subject,
+    }
+    session.connection().execute(_WRITE, entry)
 
 
 def page(session: Session, experiment_id: int | None, cursor: str | None, limit: int) -> AuditPage:

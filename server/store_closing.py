@@ -42,8 +42,8 @@ def _count_votes(session: Session, proposal: ProposalRow, by: int) -> None:
         return
     session.flush()
     experiment = session.get_one(ExperimentRow, proposal.experiment_id)
-    query = select(FeedbackRow).where(
+    query = select(FeedbackRow.label).where(
         FeedbackRow.proposal_id == proposal.id, FeedbackRow.status == "stored", FeedbackRow.undone_at.is_(None)
     )
-    for vote in session.scalars(query):
-        count(experiment, vote.label, by)
+    for value in session.scalars(query):
+        count(experiment, value, by)

@@ -9,7 +9,6 @@ from sqlalchemy.orm import Session
 
 from server.models import FeedbackRow, ProposalRow
 from server.schemas_critic import NearbyLabel
-from server.store_labels import value_now
 from server.store_proposals import load_proposal
 
 NEWEST = 300
@@ -21,7 +20,7 @@ ALIKE = 0.02
 def nearby(session: Session, proposal_id: int, skill: str) -> list[NearbyLabel]:
     """The newest labels of this skill in the proposal's experiment, oldest first; can't tell says nothing here."""
     proposal = load_proposal(session, proposal_id)
-    value = value_now()
+    value = FeedbackRow.label
     query = (
         select(ProposalRow, value)
         .join(FeedbackRow, FeedbackRow.proposal_id == ProposalRow.id)

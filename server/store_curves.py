@@ -17,7 +17,6 @@ from sqlalchemy.orm import Session
 from server.models import EvaluationRow, ExecutionRow, FeedbackRow, MetricRow, ProposalRow
 from server.schemas_curves import Chart, Curve, Curves, Measure
 from server.store_experiments import load
-from server.store_labels import value_now
 
 LEAST = 10
 """Rows of a bucket: a share of fewer says little."""
@@ -154,7 +153,7 @@ def _others(sampled: Sequence[Any]) -> list[Chart]:
 
 def _labels(session: Session, experiment_id: int, points: int) -> list[Any]:
     """Means over buckets of successive labels."""
-    value = value_now()
+    value = FeedbackRow.label
     label = (
         select(FeedbackRow.id, value.label("value"), ProposalRow.predicted_feedback.label("predicted"))
         .join(ProposalRow, ProposalRow.id == FeedbackRow.proposal_id)

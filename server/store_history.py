@@ -6,7 +6,7 @@ from collections import defaultdict
 from typing import Any
 
 from sqlalchemy import ColumnElement, func, select
-from sqlalchemy.orm import Session
+from sqlalchemy.orm import Session, selectinload
 
 from server import store_pages
 from server import store_wire as wire
@@ -15,7 +15,6 @@ from server.models_incidents import ViolationRow
 from server.schemas_history import Episode, EpisodePage, HistoryEntry, HistoryFilter, HistoryPage
 from server.store_errors import NotFound
 from server.store_experiments import load
-from server.store_labels import value_now
 
 _VALUES = {"good": 1, "neutral": 0, "bad": -1}
 
@@ -28,7 +27,11 @@ def history(session: Session, experiment_id: int, wanted: HistoryFilter, cursor:
     """
     load(session, experiment_id)
     row = ProposalRow
-    query = select(row).where(row.experiment_id == experiment_id, row.closed_at.is_not(None), *_narrowed(wanted))
+    query = (
+        select(row)
+        .options(selectinload(row.heard))
+        .where(row.experiment_id == experiment_id, row.closed_at.is_not(None), *_narrowed(wanted))
+    )
     rows, after = store_pages.page(
         session, query, row.id, _as_it_is, cursor=cursor, limit=limit, newest_first=wanted.order == "desc"
     )
@@ -74,7 +77,7 @@ def _narrowed(wanted: HistoryFilter) -> list[ColumnElement[bool]]:
         here = select(EpisodeRow.id).where(EpisodeRow.id == row.episode_id, EpisodeRow.number == wanted.episode)
         found.append(here.exists())
     if wanted.label is not None:
-        value = value_now()
+        value = FeedbackRow.label
         said = value.is_(None) if wanted.label == "cant_tell" else value == _VALUES[wanted.label]
         counts = (FeedbackRow.status == "stored", FeedbackRow.undone_at.is_(None))
         found.append(select(FeedbackRow.id).where(FeedbackRow.proposal_id == row.id, *counts, said).exists())
@@ -95,7 +98,13 @@ def _narrowed(wanted: HistoryFilter) -> list[ColumnElement[bool]]:
 def _entries(session: Session, rows: list[ProposalRow]) -> list[HistoryEntry]:
     ids = [row.id for row in rows]
     clicks: dict[int, list[FeedbackRow]] = defaultdict(list)
-    for click in session.scalars(select(FeedbackRow).where(FeedbackRow.proposal_id.in_(ids)).order_by(FeedbackRow.id)):
+    said = (
+        select(FeedbackRow)
+        .options(selectinload(FeedbackRow.relabels))
+        .where(FeedbackRow.proposal_id.in_(ids))
+        .order_by(FeedbackRow.id)
+    )
+    for click in session.scalars(said):
         clicks[click.proposal_id].append(click)
     ran = {each.proposal_id: each for each in session.scalars(
         select(ExecutionRow).where(ExecutionRow.proposal_id.in_(ids))

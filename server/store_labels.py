@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sqlalchemy import ColumnElement, case, exists, or_, select
+from sqlalchemy import ColumnElement, or_, select
 from sqlalchemy.orm import Session
 
 from server.models import FeedbackRow, ObservationRow, ProposalRow, RelabelRow, TrainerRow
@@ -12,20 +12,6 @@ from server.store_errors import Conflict, NotFound
 from server.store_experiments import journal, load, now
 from server.store_values import Relabelled, StoredLabel
 from server.store_wire import feedback as feedback_wire
-
-
-def value_now() -> ColumnElement[int | None]:
-    """In a query: what a feedback says by now; null: can't tell. In Python it is `FeedbackRow.label`."""
-    newest = (
-        select(RelabelRow.value)
-        .where(RelabelRow.feedback_id == FeedbackRow.id)
-        .order_by(RelabelRow.id.desc())
-        .limit(1)
-        .correlate(FeedbackRow)
-        .scalar_subquery()
-    )
-    corrected = exists().where(RelabelRow.feedback_id == FeedbackRow.id).correlate(FeedbackRow)
-    return case((corrected, newest), else_=FeedbackRow.value)
 
 
 def labels(session: Session, experiment_id: int, after_id: int = 0, limit: int | None = None) -> list[StoredLabel]:
@@ -104,7 +90,7 @@ def _must_be_correctable(row: FeedbackRow, proposal: ProposalRow, by: str, *, an
 
 
 def _labels(session: Session, *where: ColumnElement[bool], limit: int | None = None) -> list[StoredLabel]:
-    value = value_now()
+    value = FeedbackRow.label
     query = (
         select(FeedbackRow.id, ObservationRow.state, ProposalRow.skill, ProposalRow.parameters, value)
         .join(ProposalRow, ProposalRow.id == FeedbackRow.proposal_id)

@@ -13,7 +13,7 @@ from datetime import UTC, datetime
 from typing import Any
 
 from sqlalchemy import ColumnElement, Float, and_, cast, func, or_, select
-from sqlalchemy.orm import Session
+from sqlalchemy.orm import Session, selectinload
 
 from server import schemas
 from server import store_wire as wire
@@ -34,7 +34,7 @@ def experiments(session: Session, listing: Listing, cursor: str | None, limit: i
     """
     by = _ordered_by(listing.sort)
     down = listing.order == "desc"
-    query = select(ExperimentRow, by.label("by")).where(*_narrowed(listing))
+    query = select(ExperimentRow, by.label("by")).options(selectinload(ExperimentRow.tags)).where(*_narrowed(listing))
     if cursor is not None:
         value, last = _decode(cursor, listing)
         beyond = and_(by == value, ExperimentRow.id < last if down else ExperimentRow.id > last)

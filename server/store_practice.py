@@ -92,7 +92,7 @@ def progress(session: Session, experiment: ExperimentRow, name: str) -> Practice
     mine = [value == known for value, known in session.execute(query)]
     newest = mine[-bar.proposals :]
     enough = len(newest) >= bar.proposals and sum(newest) >= bar.accuracy * len(newest) - 1e-9
-    counts = may_count(session, experiment, name)
+    counts = may_count(session, experiment.id, experiment.practice_required, name)
     return PracticeProgress(
         required=required,
         answered=len(mine),
@@ -103,14 +103,17 @@ def progress(session: Session, experiment: ExperimentRow, name: str) -> Practice
     )
 
 
-def may_count(session: Session, experiment: ExperimentRow, name: str) -> bool:
-    """Whether this trainer's clicks count: no practice is required, or they have passed, or they are a teacher."""
-    if experiment.practice_required is None or name.startswith(TEACHER):
+def may_count(session: Session, experiment_id: int, required: dict[str, Any] | None, name: str) -> bool:
+    """Whether this trainer's clicks count: no practice is required, or they have passed, or they are a teacher.
+
+    required: the experiment's `practice_required`.
+    """
+    if required is None or name.startswith(TEACHER):
         return True
     passed = (
         select(QualificationRow.at)
         .join(TrainerRow, TrainerRow.id == QualificationRow.trainer_id)
-        .where(QualificationRow.experiment_id == experiment.id, TrainerRow.name == name, TrainerRow.kind == "person")
+        .where(QualificationRow.experiment_id == experiment_id, TrainerRow.name == name, TrainerRow.kind == "person")
     )
     return session.scalar(passed) is not None
 

@@ -5,14 +5,15 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
-from sqlalchemy import func, select
+from sqlalchemy import and_, bindparam, func, select
 from sqlalchemy.orm import Session
 
-from server import lifecycle, schemas, store_gold, store_practice
-from server.models import EvaluationRow, ExecutionRow, ObservationRow, ProposalRow
+from server import lifecycle, schemas, store_gold
+from server.models import EpisodeRow, EvaluationRow, ExecutionRow, ExperimentRow, ObservationRow, ProposalRow
 from server.store_closing import close
 from server.store_errors import Conflict, NotFound
-from server.store_experiments import begin_episode, journal, load, must_be_running, now, open_episode, state
+from server.store_experiments import begin_episode, journal, must_be_running, now, state
+from server.store_practice import may_count
 from server.store_values import NewProposal, NewView
 
 CONTENT = (
@@ -20,6 +21,38 @@ CONTENT = (
     *("predicted_feedback", "uncertainty", "skill_probabilities", "policy_version"),
 )
 """Columns of what is proposed, and of what it was drawn on: a marked proposal is shown again with the same."""
+
+_NEWEST = select(func.max(ProposalRow.number)).where(ProposalRow.experiment_id == ExperimentRow.id)
+_MOVING = select(ExecutionRow.id).where(
+    ExecutionRow.experiment_id == ExperimentRow.id,
+    ExecutionRow.robot == bindparam("robot"),
+    ExecutionRow.ended_at.is_(None),
+)
+_SCENE = (
+    select(ExperimentRow, EpisodeRow, _NEWEST.scalar_subquery(), _MOVING.scalar_subquery())
+    .outerjoin(
+        EpisodeRow,
+        and_(
+            EpisodeRow.experiment_id == ExperimentRow.id,
+            EpisodeRow.robot == bindparam("robot"),
+            EpisodeRow.ended_at.is_(None),
+        ),
+    )
+    .where(ExperimentRow.id == bindparam("experiment"))
+)
+"""The experiment, the episode that goes on, its highest number of a proposal, and what moves the robot."""
+_OPEN = (
+    select(ProposalRow.id, ProposalRow.slot, ProposalRow.gold_of, ObservationRow.uid)
+    .join(ObservationRow, ObservationRow.id == ProposalRow.observation_id)
+    .where(
+        ProposalRow.experiment_id == bindparam("experiment"),
+        ProposalRow.robot == bindparam("robot"),
+        ProposalRow.closed_at.is_(None),
+    )
+)
+_OBSERVATION = select(ObservationRow).where(
+    ObservationRow.experiment_id == bindparam("experiment"), ObservationRow.uid == bindparam("uid")
+)
 
 
 def load_proposal(session: Session, proposal_id: int) -> ProposalRow:
@@ -41,18 +74,20 @@ def open_proposal(session: Session, new: NewProposal) -> ProposalRow:
         Conflict: not running (an evaluation: not idle), halted, its robot has another one open in this slot or of
             another view of the scene, or still moves.
     """
-    experiment = load(session, new.experiment_id)
+    where = {"experiment": new.experiment_id, "robot": new.robot}
+    found = session.execute(_SCENE, where).one_or_none()
+    if found is None:
+        raise NotFound("experiment", new.experiment_id)
+    experiment, episode, newest, moving = found
     if new.purpose == "training":
         must_be_running(experiment, "open a proposal")
     else:
         lifecycle.apply(state(experiment), "evaluate")
-    _must_stand_still(session, new)
-    episode = open_episode(session, new.experiment_id, new.robot)
+    _must_stand_still(session, new, moving)
     if episode is None or episode.purpose != new.purpose:
         if new.purpose == "training":
             raise Conflict("no episode has begun", remedy="reset the robot first")
         episode = begin_episode(session, new.experiment_id, 0, "evaluation", new.robot)
-    newest = session.scalar(select(func.max(ProposalRow.number)).where(ProposalRow.experiment_id == new.experiment_id))
     number = (newest or 0) + 1
     known = store_gold.drawn(session, experiment, new, number)
     again = known.again if known is not None else None
@@ -64,11 +99,13 @@ def open_proposal(session: Session, new: NewProposal) -> ProposalRow:
         number=number,
         purpose=new.purpose,
         # who has to practise first has no vote that anybody could wait for
-        electorate=[name for name in new.electorate if store_practice.may_count(session, experiment, name)],
+        electorate=[
+            name for name in new.electorate if may_count(session, experiment.id, experiment.practice_required, name)
+        ],
         opened_at=now(),
         known_answer=known.answer if known is not None else None,
         gold_of=again.id if again is not None else None,
-        votes=[],
+        heard=[],
         **(_content(session, new) if again is None else {name: getattr(again, name) for name in CONTENT}),
     )
     session.add(row)
@@ -91,10 +128,18 @@ def must_have_led_to_nothing(session: Session, proposal_id: int) -> None:
     Raises:
         Conflict: it is open, closed without a verdict, or good; or its scene isn't there any more.
     """
-    row = load_proposal(session, proposal_id)
-    if row.close_reason not in ("judged", "cant_tell") or row.verdict == schemas.Verdict.GOOD.value:
+    query = (
+        select(ProposalRow.close_reason, ProposalRow.verdict, EpisodeRow.ended_at)
+        .join(EpisodeRow, EpisodeRow.id == ProposalRow.episode_id)
+        .where(ProposalRow.id == proposal_id)
+    )
+    found = session.execute(query).one_or_none()
+    if found is None:
+        raise NotFound("proposal", proposal_id)
+    close_reason, verdict, ended_at = found
+    if close_reason not in ("judged", "cant_tell") or verdict == schemas.Verdict.GOOD.value:
         raise Conflict(f"proposal {proposal_id} was not judged bad or neutral", remedy="propose anew")
-    if row.episode.ended_at is not None:
+    if ended_at is not None:
         raise Conflict(f"the episode of proposal {proposal_id} has ended", remedy="observe, then propose anew")
 
 
@@ -110,32 +155,21 @@ def close_proposal(session: Session, proposal_id: int, reason: schemas.CloseReas
     return row
 
 
-def _must_stand_still(session: Session, new: NewProposal) -> None:
+def _must_stand_still(session: Session, new: NewProposal, moving: int | None) -> None:
     """The slot is free, what else is open is of the same scene, and the robot doesn't move."""
-    query = select(ProposalRow).where(
-        ProposalRow.experiment_id == new.experiment_id,
-        ProposalRow.robot == new.robot,
-        ProposalRow.closed_at.is_(None),
-    )
-    for other in session.scalars(query):
-        if other.slot == new.slot:
-            raise Conflict(f"proposal {other.id} is open", remedy="wait until it is judged, or close it")
+    where = {"experiment": new.experiment_id, "robot": new.robot}
+    for other, slot, gold_of, uid in session.execute(_OPEN, where):
+        if slot == new.slot:
+            raise Conflict(f"proposal {other} is open", remedy="wait until it is judged, or close it")
         # a gold one may show an earlier scene again
-        if other.gold_of is None and other.observation.uid != new.observation_id:
-            raise Conflict(f"proposal {other.id} is open for another view of the scene", remedy="close it first")
-    moving = select(ExecutionRow.id).where(
-        ExecutionRow.experiment_id == new.experiment_id,
-        ExecutionRow.robot == new.robot,
-        ExecutionRow.ended_at.is_(None),
-    )
-    if (running := session.scalar(moving)) is not None:
-        raise Conflict(f"execution {running} still moves the robot", remedy="wait until it has ended")
+        if gold_of is None and uid != new.observation_id:
+            raise Conflict(f"proposal {other} is open for another view of the scene", remedy="close it first")
+    if moving is not None:
+        raise Conflict(f"execution {moving} still moves the robot", remedy="wait until it has ended")
 
 
 def _observation(session: Session, new: NewProposal) -> ObservationRow:
-    query = select(ObservationRow).where(
-        ObservationRow.experiment_id == new.experiment_id, ObservationRow.uid == new.observation_id
-    )
+    query = _OBSERVATION.params(experiment=new.experiment_id, uid=new.observation_id)
     values = [float(value) for value in new.state]
     known = session.scalars(query).one_or_none()
     if known is not None:

@@ -30,7 +30,6 @@ from server.schemas_quality import (
 )
 from server.store_errors import NotFound
 from server.store_experiments import load, now
-from server.store_labels import value_now
 from server.trainer_figures import Click, figures
 
 FRESH = 2.0
@@ -163,7 +162,7 @@ def _clicks(session: Session, experiment_id: int) -> list[Click]:
             TrainerRow.name,
             TrainerRow.kind,
             FeedbackRow.value,
-            value_now(),
+            FeedbackRow.label,
             FeedbackRow.status,
             FeedbackRow.received_at,
             relabelled,

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 from sqlalchemy import ColumnElement, Select, exists, or_, select
-from sqlalchemy.orm import Session
+from sqlalchemy.orm import Session, selectinload
 
 from server import (
     models,
@@ -45,6 +45,9 @@ _OF_EXPERIMENT = {
     "practice": PracticeRow,
 }
 
+_PROPOSALS = select(models.ProposalRow).options(selectinload(models.ProposalRow.heard))
+_CLICKS = select(models.FeedbackRow).options(selectinload(models.FeedbackRow.relabels))
+
 
 class Reads:
     """Every read of the service; `server.store.Store` adds the writes."""
@@ -82,14 +85,14 @@ class Reads:
 
     async def proposals(self, experiment_id: int, cursor: str | None = None, limit: int = 50) -> schemas.ProposalPage:
         """Newest first."""
-        query = select(models.ProposalRow).where(models.ProposalRow.experiment_id == experiment_id)
+        query = _PROPOSALS.where(models.ProposalRow.experiment_id == experiment_id)
         items, after = await self._page(query, models.ProposalRow.id, wire.proposal, cursor, limit, of=experiment_id)
         return schemas.ProposalPage(items=items, next_cursor=after)
 
     async def open_proposals(self, experiment_id: int) -> list[schemas.Proposal]:
         """The proposals that wait for feedback, at most one in each slot of a robot, oldest first."""
         row = models.ProposalRow
-        query = select(row).where(row.experiment_id == experiment_id, row.closed_at.is_(None)).order_by(row.number)
+        query = _PROPOSALS.where(row.experiment_id == experiment_id, row.closed_at.is_(None)).order_by(row.number)
         return await self._all(query, wire.proposal)
 
     async def superseded_by(self, proposal_id: int) -> tuple[list[schemas.Proposal], list[StoredLabel]]:
@@ -137,7 +140,7 @@ class Reads:
     ) -> schemas.FeedbackPage:
         """Clicks on a proposal, late and undone ones too, newest first. told: without votes on what is still open."""
         await self.proposal(proposal_id)
-        query = select(models.FeedbackRow).where(models.FeedbackRow.proposal_id == proposal_id)
+        query = _CLICKS.where(models.FeedbackRow.proposal_id == proposal_id)
         if told:
             query = query.where(_told())
         items, after = await self._page(query, models.FeedbackRow.id, wire.feedback, cursor, limit)
@@ -147,7 +150,7 @@ class Reads:
         self, experiment_id: int, cursor: str | None = None, limit: int = 50, *, told: bool = False
     ) -> schemas.FeedbackPage:
         """Clicks of an experiment, late and undone ones too, newest first. told: as `feedback_of_proposal`."""
-        query = select(models.FeedbackRow).where(models.FeedbackRow.experiment_id == experiment_id)
+        query = _CLICKS.where(models.FeedbackRow.experiment_id == experiment_id)
         if told:
             query = query.where(_told())
         items, after = await self._page(query, models.FeedbackRow.id, wire.feedback, cursor, limit, of=experiment_id)

@@ -8,15 +8,18 @@ from collections.abc import Mapping
 from datetime import timedelta
 from typing import Any
 
-from sqlalchemy import delete, select
+from sqlalchemy import delete, insert, select
 from sqlalchemy.orm import Session
 
 from server.models import (
     CheckpointRow,
     EvaluationRow,
+    ExperimentRow,
     IdempotencyRow,
     MetricRow,
 )
+from server.models_base import table
+from server.schemas import MetricPoint
 from server.store_errors import Conflict, NotFound
 from server.store_experiments import journal, load, now
 from server.store_values import StoredResponse
@@ -24,15 +27,18 @@ from server.store_values import StoredResponse
 REMEMBERED = timedelta(hours=24)
 """How long a retried write gets its first answer again."""
 
+_MEASURE = insert(table(MetricRow))
 
-def add_metrics(session: Session, experiment_id: int, feedback: int, values: Mapping[str, float]) -> MetricRow:
+
+def add_metrics(session: Session, experiment_id: int, feedback: int, values: Mapping[str, float]) -> MetricPoint:
     """A point of the charts. A value that isn't finite can't be drawn, nor written as JSON, and is left out."""
-    load(session, experiment_id)
+    if session.scalar(select(ExperimentRow.id).where(ExperimentRow.id == experiment_id)) is None:
+        raise NotFound("experiment", experiment_id)
     finite = {name: float(value) for name, value in values.items() if math.isfinite(value)}
-    row = MetricRow(experiment_id=experiment_id, feedback=feedback, at=now(), data=finite)
-    session.add(row)
-    session.flush()
-    return row
+    point = MetricPoint(feedback=feedback, at=now(), values=finite)
+    entry = {"experiment_id": experiment_id, "feedback": feedback, "at": point.at, "data": finite}
+    session.connection().execute(_MEASURE, entry)
+    return point
 
 
 def metric_names(session: Session, experiment_id: int) -> list[str]:

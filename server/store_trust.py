@@ -14,7 +14,6 @@ from server.models import ExperimentRow, FeedbackRow, ProposalRow
 from server.schemas import Lifecycle, Mode, Proposal, Verdict
 from server.schemas_trust import AutoApproval, AutoApprovalRecord, Calibration, CalibrationBin, VerdictSource
 from server.store_experiments import journal, load, now, state
-from server.store_labels import value_now
 from server.store_proposals import load_proposal
 from server.store_votes import judge
 from server.store_wire import proposal as proposal_wire
@@ -46,7 +45,7 @@ def calibration(session: Session, experiment_id: int, newest: int) -> Calibratio
         earlier.number < ProposalRow.number,
         earlier.verdict.is_not(None),
     )
-    label = select(func.avg(value_now())).where(
+    label = select(func.avg(FeedbackRow.label)).where(
         FeedbackRow.proposal_id == ProposalRow.id, FeedbackRow.status == "stored", FeedbackRow.undone_at.is_(None)
     )
     query = (

@@ -106,7 +106,7 @@ def undo(session: Session, feedback_id: int, *, keep: Collection[int] = (), by: 
     experiment.updated_at = now()
     session.flush()
     journal(session, row.experiment_id, "undone", feedback=row.id, proposal=judged.id, by=row.trainer.name)
-    session.refresh(judged, ["votes"])
+    session.refresh(judged, ["heard"])
     return Undone(feedback_wire(row), proposal_wire(judged), proposal_wire(withdrawn) if withdrawn else None)
 
 

@@ -3,22 +3,54 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from typing import Any
 
-from sqlalchemy import select
+from sqlalchemy import Row, and_, bindparam, insert, select
 from sqlalchemy.orm import Session
 
 from server import aggregation, schemas, schemas_trust, store_experiments, store_practice, store_quality
-from server.models import ExperimentRow, FeedbackRow, ProposalRow, TrainerRow
+from server.models import ExperimentRow, FeedbackRow, ObservationRow, ProposalRow, TrainerRow
+from server.models_base import table
+from server.schemas_labels import answer_of
 from server.schemas_together import Together
 from server.store_audit import record
 from server.store_closing import close
-from server.store_errors import Conflict
+from server.store_errors import Conflict, NotFound
 from server.store_experiments import journal, load, now
 from server.store_labels import labels_of, trainer
 from server.store_proposals import load_proposal
 from server.store_values import Concluded, Submission
 from server.store_wire import feedback as feedback_wire
 from server.store_wire import proposal as proposal_wire
+
+_FOUND = (
+    select(
+        ProposalRow.experiment_id,
+        ProposalRow.purpose,
+        ProposalRow.closed_at,
+        ProposalRow.close_reason,
+        ProposalRow.verdict,
+        ProposalRow.superseded_by,
+        ProposalRow.policy_version,
+        ObservationRow.uid,
+        ExperimentRow.practice_required,
+        TrainerRow.id.label("trainer_id"),
+        FeedbackRow.id.label("known"),
+    )
+    .join(ObservationRow, ObservationRow.id == ProposalRow.observation_id)
+    .join(ExperimentRow, ExperimentRow.id == ProposalRow.experiment_id)
+    .outerjoin(TrainerRow, and_(TrainerRow.name == bindparam("trainer"), TrainerRow.kind == bindparam("kind")))
+    .outerjoin(FeedbackRow, FeedbackRow.click_id == bindparam("click_id"))
+    .where(ProposalRow.id == bindparam("proposal"))
+)
+"""What has to be known of a click before it is stored. Most clicks of a crowd are late, and need no more than this."""
+_KEEP = insert(table(FeedbackRow))
+_EXPERIMENT = table(ExperimentRow)
+_COUNT_LATE = (
+    _EXPERIMENT.update()
+    .where(_EXPERIMENT.c.id == bindparam("experiment"))
+    .values(late=_EXPERIMENT.c.late + 1, updated_at=bindparam("at"))
+)
 
 
 def submit(
@@ -32,41 +64,34 @@ def submit(
         Conflict: the click id was used for something else, the proposal is an evaluation's, or this trainer has
             judged it already or has no vote on it.
     """
-    known = session.scalars(select(FeedbackRow).where(FeedbackRow.click_id == click.click_id)).one_or_none()
-    if known is not None:
-        if (known.proposal_id, known.value, known.trainer.name) != (proposal_id, click.label, click.trainer):
-            raise Conflict(
-                f"click {click.click_id} was stored with another content", remedy="make a new click id for every click"
-            )
-        late = known.status == schemas.FeedbackStatus.LATE
-        why = _why_late(session, load_proposal(session, proposal_id), click, None) if late else None
-        return Submission(_late(known, why), duplicate=True)
-    proposal = load_proposal(session, proposal_id)
-    if proposal.purpose != "training":
+    asked = {"proposal": proposal_id, "click_id": click.click_id, "trainer": click.trainer, "kind": kind}
+    found = session.execute(_FOUND, asked).one_or_none()
+    if found is None or found.known is not None:
+        return _again(session, proposal_id, click, found)
+    if found.purpose != "training":
         raise Conflict("this proposal belongs to an evaluation", remedy="judge the proposals of a running experiment")
-    late_because = _why_late(session, proposal, click, refused)
-    late = late_because is not None
-    by = trainer(session, click.trainer, kind)
-    experiment = load(session, proposal.experiment_id)
-    counts = kind != "person" or store_practice.may_count(session, experiment, by.name)
-    if counts and not late:
-        _must_have_vote(session, experiment, proposal, by)
-    status = "practice" if not counts else "late" if late else "stored"
-    shown = click.estimate_shown
-    row = _store(session, proposal, by, click.click_id, click.label, status=status, estimate_shown=shown)
-    record(session, "clicked", experiment.id, by=by.name, proposal=proposal_id, value=click.label, status=status)
-    if not counts:
-        return Submission(feedback_wire(row), duplicate=False)
+    late_because = _why_late(session, found, click, refused)
+    by = found.trainer_id or trainer(session, click.trainer, kind).id
+    experiment_id, required = found.experiment_id, found.practice_required
+    counts = kind != "person" or store_practice.may_count(session, experiment_id, required, click.trainer)
+    status = "practice" if not counts else "stored" if late_because is None else "late"
+    if status == "stored":
+        proposal, experiment = _judged(session, proposal_id)
+        cast = _must_have_vote(session, experiment, proposal, click.trainer)
+    feedback = _store(session, experiment_id, proposal_id, by, click, status=status)
+    record(session, "clicked", experiment_id, by=click.trainer, proposal=proposal_id, value=click.label, status=status)
+    if status == "practice":
+        return Submission(feedback, duplicate=False)
+    if status == "late":
+        session.connection().execute(_COUNT_LATE, {"experiment": experiment_id, "at": feedback.received_at})
+        return Submission(_late(feedback, late_because), duplicate=False)
+    cast[click.trainer] = click.label
+    _conclude(session, experiment, proposal, cast)
     experiment.updated_at = now()
-    if late:
-        experiment.late += 1
-        return Submission(_late(row, late_because), duplicate=False)
-    _conclude(session, experiment, proposal)
-    told = _told(session, proposal)
+    told = _told(session, proposal, cast)
     if proposal.closed_at is None:
-        return Submission(feedback_wire(row), duplicate=False, heard=told)
-    labels = labels_of(session, proposal_id)
-    return Submission(feedback_wire(row), duplicate=False, heard=told, closed=told, labels=labels)
+        return Submission(feedback, duplicate=False, heard=told)
+    return Submission(feedback, duplicate=False, heard=told, closed=told, labels=labels_of(session, proposal_id))
 
 
 def approve_evaluation(session: Session, proposal_id: int) -> ProposalRow:
@@ -74,9 +99,9 @@ def approve_evaluation(session: Session, proposal_id: int) -> ProposalRow:
     proposal = load_proposal(session, proposal_id)
     if proposal.purpose != "evaluation" or proposal.closed_at is not None:
         raise Conflict("only an open proposal of an evaluation can be approved by it", remedy="submit feedback instead")
-    _store(
-        session, proposal, trainer(session, "evaluation", "evaluation"), f"evaluation-{proposal_id}", 1, status="stored"
-    )
+    by = trainer(session, "evaluation", "evaluation")
+    click = schemas.FeedbackCreate(click_id=f"evaluation-{proposal_id}", value=1, trainer=by.name)
+    _store(session, proposal.experiment_id, proposal_id, by.id, click, status="stored")
     judge(session, proposal, schemas.Verdict.GOOD, schemas_trust.VerdictSource.EVALUATION)
     session.flush()
     return proposal
@@ -85,11 +110,12 @@ def approve_evaluation(session: Session, proposal_id: int) -> ProposalRow:
 def votes(session: Session, proposal_id: int) -> dict[str, int | None]:
     """Counted votes, trainer -> value as it was clicked, in the order they came; None: can't tell."""
     query = (
-        select(FeedbackRow)
+        select(TrainerRow.name, FeedbackRow.value)
+        .join(TrainerRow, TrainerRow.id == FeedbackRow.trainer_id)
         .where(FeedbackRow.proposal_id == proposal_id, FeedbackRow.status == "stored", FeedbackRow.undone_at.is_(None))
         .order_by(FeedbackRow.id)
     )
-    return {row.trainer.name: row.value for row in session.scalars(query)}
+    return dict(session.execute(query).all())
 
 
 def verdict_of(
@@ -132,7 +158,7 @@ def leave(session: Session, experiment_id: int, names: Collection[str]) -> list[
         )
         proposal.electorate = stay
         if cast:
-            _conclude(session, experiment, proposal)
+            _conclude(session, experiment, proposal, cast)
         concluded.append(_concluded(session, proposal))
     return concluded
 
@@ -141,7 +167,7 @@ def enter(session: Session, experiment_id: int, names: Sequence[str]) -> list[Co
     """Somebody is there again: open proposals that nobody is left to judge are theirs. The others' electorates stay."""
     experiment = load(session, experiment_id)
     entered = []
-    may = [name for name in names if store_practice.may_count(session, experiment, name)]
+    may = [n for n in names if store_practice.may_count(session, experiment.id, experiment.practice_required, n)]
     for proposal in _open(session, experiment_id):
         if may and not proposal.electorate:
             proposal.electorate = may
@@ -160,8 +186,8 @@ def update(
         return row, []
     concluded = []
     for proposal in _open(session, experiment_id):
-        if votes(session, proposal.id):
-            _conclude(session, experiment, proposal)
+        if cast := votes(session, proposal.id):
+            _conclude(session, experiment, proposal, cast)
         if proposal.closed_at is not None:
             concluded.append(_concluded(session, proposal))
     return row, concluded
@@ -188,13 +214,14 @@ def _open(session: Session, experiment_id: int) -> Sequence[ProposalRow]:
     return session.scalars(query).all()
 
 
-def _conclude(session: Session, experiment: ExperimentRow, proposal: ProposalRow) -> None:
+def _conclude(
+    session: Session, experiment: ExperimentRow, proposal: ProposalRow, cast: Mapping[str, int | None]
+) -> None:
     """Close it if the votes have come to an end: with their verdict, or because nobody could tell."""
-    cast = votes(session, proposal.id)
     verdict = verdict_of(session, experiment, proposal, cast)
     if verdict is not None:
-        judge(session, proposal, verdict, schemas_trust.VerdictSource.TRAINERS)
         proposal.rule = experiment.aggregation
+        judge(session, proposal, verdict, schemas_trust.VerdictSource.TRAINERS)
     elif aggregation.nobody_could_tell(cast, proposal.electorate):
         close(session, proposal, schemas.CloseReason.CANT_TELL)
 
@@ -204,37 +231,60 @@ def _concluded(session: Session, proposal: ProposalRow) -> Concluded:
     return Concluded(told, labels_of(session, proposal.id) if proposal.closed_at is not None else ())
 
 
-def _told(session: Session, proposal: ProposalRow) -> schemas.Proposal:
+def _told(session: Session, proposal: ProposalRow, heard: Collection[str] | None = None) -> schemas.Proposal:
     session.flush()
-    session.refresh(proposal, ["votes"])
-    return proposal_wire(proposal)
+    return proposal_wire(proposal, heard)
 
 
-def _late(row: FeedbackRow, why: str | None) -> schemas.Feedback:
-    return feedback_wire(row).model_copy(update={"late_because": why})
+def _again(session: Session, proposal_id: int, click: schemas.FeedbackCreate, found: Row[Any] | None) -> Submission:
+    """The answer to a click that is stored already."""
+    known = session.scalars(select(FeedbackRow).where(FeedbackRow.click_id == click.click_id)).one_or_none()
+    if known is None:
+        raise NotFound("proposal", proposal_id)
+    if found is None or (known.proposal_id, known.value, known.trainer.name) != (
+        proposal_id,
+        click.label,
+        click.trainer,
+    ):
+        raise Conflict(
+            f"click {click.click_id} was stored with another content", remedy="make a new click id for every click"
+        )
+    late = known.status == schemas.FeedbackStatus.LATE
+    return Submission(_late(feedback_wire(known), _why_late(session, found, click, None) if late else None), True)
 
 
-def _why_late(
-    session: Session, proposal: ProposalRow, click: schemas.FeedbackCreate, refused: str | None
-) -> str | None:
-    """What keeps this click from counting, in words; None where it counts."""
-    if proposal.closed_at is not None:
-        return _why_closed(session, proposal)
+def _judged(session: Session, proposal_id: int) -> tuple[ProposalRow, ExperimentRow]:
+    query = (
+        select(ProposalRow, ExperimentRow)
+        .join(ExperimentRow, ExperimentRow.id == ProposalRow.experiment_id)
+        .where(ProposalRow.id == proposal_id)
+    )
+    return session.execute(query).one()
+
+
+def _late(feedback: schemas.Feedback, why: str | None) -> schemas.Feedback:
+    return feedback.model_copy(update={"late_because": why})
+
+
+def _why_late(session: Session, found: Row[Any], click: schemas.FeedbackCreate, refused: str | None) -> str | None:
+    """What keeps this click from counting, in words; None where it counts. found: by `_FOUND`."""
+    if found.closed_at is not None:
+        return _why_closed(session, found)
     looked = click.looked
-    if looked is not None and looked.observation_id != proposal.observation.uid:
+    if looked is not None and looked.observation_id != found.uid:
         return "it was made for another view of the scene than the proposal is drawn on"
-    if looked is not None and looked.policy_version != proposal.policy_version:
+    if looked is not None and looked.policy_version != found.policy_version:
         return "it was made for a proposal of another policy"
     return refused
 
 
-def _why_closed(session: Session, proposal: ProposalRow) -> str:
-    reason = schemas.CloseReason(str(proposal.close_reason))
+def _why_closed(session: Session, found: Row[Any]) -> str:
+    reason = schemas.CloseReason(str(found.close_reason))
     if reason is schemas.CloseReason.SUPERSEDED:
-        other = session.get(ProposalRow, proposal.superseded_by) if proposal.superseded_by else None
-        return "another proposal" + (f", number {other.number}," if other else "") + " was approved first"
+        other = session.scalar(select(ProposalRow.number).where(ProposalRow.id == found.superseded_by))
+        return "another proposal" + (f", number {other}," if other else "") + " was approved first"
     return {
-        schemas.CloseReason.JUDGED: f"it was judged {proposal.verdict} before this click came",
+        schemas.CloseReason.JUDGED: f"it was judged {found.verdict} before this click came",
         schemas.CloseReason.CANT_TELL: "nobody could tell, and it was closed before this click came",
         schemas.CloseReason.TIMED_OUT: "its time was over before this click came",
         schemas.CloseReason.WITHDRAWN: "it was withdrawn before this click came",
@@ -242,41 +292,55 @@ def _why_closed(session: Session, proposal: ProposalRow) -> str:
     }[reason]
 
 
-def _must_have_vote(session: Session, experiment: ExperimentRow, proposal: ProposalRow, trainer: TrainerRow) -> None:
+def _must_have_vote(
+    session: Session, experiment: ExperimentRow, proposal: ProposalRow, trainer: str
+) -> dict[str, int | None]:
+    """The votes so far."""
     if not proposal.electorate:  # nobody was there when it opened, or all have gone: it is for whoever comes
-        proposal.electorate = [trainer.name]
-    if trainer.name in votes(session, proposal.id):
+        proposal.electorate = [trainer]
+    cast = votes(session, proposal.id)
+    if trainer in cast:
+        raise Conflict(f"{trainer} has judged this proposal", remedy="undo that feedback first, or wait for the others")
+    if experiment.aggregation != "first" and trainer not in proposal.electorate:
         raise Conflict(
-            f"{trainer.name} has judged this proposal", remedy="undo that feedback first, or wait for the others"
-        )
-    if experiment.aggregation != "first" and trainer.name not in proposal.electorate:
-        raise Conflict(
-            f"{trainer.name} was not there when this proposal opened and has no vote on it",
+            f"{trainer} was not there when this proposal opened and has no vote on it",
             remedy="judge the next proposal",
         )
+    return cast
 
 
 def _store(
     session: Session,
-    proposal: ProposalRow,
-    trainer: TrainerRow,
-    click_id: str,
-    value: int | None,
+    experiment_id: int,
+    proposal_id: int,
+    trainer_id: int,
+    click: schemas.FeedbackCreate,
     *,
     status: str,
-    estimate_shown: bool | None = None,
-) -> FeedbackRow:
-    row = FeedbackRow(
-        click_id=click_id,
-        experiment_id=proposal.experiment_id,
-        proposal_id=proposal.id,
-        trainer=trainer,
-        value=value,
-        status=status,
-        received_at=now(),
+) -> schemas.Feedback:
+    at = now()
+    entry = {
+        "click_id": click.click_id,
+        "experiment_id": experiment_id,
+        "proposal_id": proposal_id,
+        "trainer_id": trainer_id,
+        "value": click.label,
+        "status": status,
+        "received_at": at,
+        "estimate_shown": click.estimate_shown,
+    }
+    made = session.connection().execute(_KEEP, entry).inserted_primary_key
+    assert made is not None
+    return schemas.Feedback(
+        id=made[0],
+        click_id=click.click_id,
+        proposal_id=proposal_id,
+        experiment_id=experiment_id,
+        trainer=click.trainer,
+        value=answer_of(click.label),
+        label=answer_of(click.label),
         relabels=[],
-        estimate_shown=estimate_shown,
+        status=schemas.FeedbackStatus(status),
+        received_at=at,
+        estimate_shown=click.estimate_shown,
     )
-    session.add(row)
-    session.flush()
-    return row

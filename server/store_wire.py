@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from server import models, schemas, schemas_records
 from server.models_incidents import IncidentRow
 from server.schemas_catalogue import Trainer
@@ -49,8 +51,8 @@ def experiment(row: models.ExperimentRow) -> schemas.Experiment:
     )
 
 
-def proposal(row: models.ProposalRow) -> schemas.Proposal:
-    """With the address of each picture."""
+def proposal(row: models.ProposalRow, heard: Iterable[str] | None = None) -> schemas.Proposal:
+    """With the address of each picture. heard: whose votes count, where that is known already."""
     gate = None
     if row.gate_allowed is not None and row.gate_reason is not None:
         gate = schemas.GateDecision(allowed=row.gate_allowed, reason=row.gate_reason)
@@ -83,7 +85,7 @@ def proposal(row: models.ProposalRow) -> schemas.Proposal:
         rule=schemas.Aggregation(row.rule) if row.rule else None,
         superseded_by=row.superseded_by,
         electorate=row.electorate,
-        heard=[vote.trainer.name for vote in row.votes],
+        heard=[trainer.name for trainer in row.heard] if heard is None else list(heard),
         audit=row.audit,
         gate=gate,
         purpose="evaluation" if row.purpose == "evaluation" else "training",
