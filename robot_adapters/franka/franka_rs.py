@@ -13,6 +13,7 @@ from robot_adapters.base import Array, Unavailable
 from robot_adapters.franka.backend import ArmFault, ArmState, Facts, Goal, HandState, Mode
 from robot_adapters.franka.driving import Driving
 from robot_adapters.franka.fingers import GRASP_FORCE, SPEED, WIDEST, Fingers
+from robot_adapters.franka.scheduling import as_before, ordinary
 
 log = logging.getLogger(__name__)
 
@@ -43,7 +44,8 @@ class FrankaRs:
         self._joints: Array | None = None
         realtime = "enforce" if driving.realtime else "ignore"
         try:
-            self._robot = franka.Robot(driving.host, realtime=realtime)
+            with as_before():  # its loops at 1 kHz see to their own priority
+                self._robot = franka.Robot(driving.host, realtime=realtime)
             self._robot.set_collision_behavior_simple(*driving.collision_behaviour())
         except franka.FrankaError as error:
             raise driving.unreachable(error) from error
@@ -167,6 +169,8 @@ class FrankaRs:
         self.end()
         try:
             self._session = kind(**settings).__enter__()
+            if not self._driving.realtime:
+                ordinary("franka-")  # it takes the highest priority whether asked to or not
         except self._driver.FrankaError as error:
             raise ArmFault(f"the arm doesn't start: {error}", mode=self.state().mode) from error
 

@@ -16,6 +16,7 @@ from robot_adapters.base import Array, Unavailable
 from robot_adapters.franka.backend import READY, ArmFault, ArmState, Facts, Goal, HandState, Mode
 from robot_adapters.franka.driving import Driving
 from robot_adapters.franka.fingers import GRASP_FORCE, SPEED, WIDEST, Fingers
+from robot_adapters.franka.scheduling import as_before, inherited
 
 log = logging.getLogger(__name__)
 
@@ -51,7 +52,8 @@ class Franky:
             int(modes.Reflex): Mode.REFLEX,
         }
         try:
-            self._robot = franky.Robot(driving.host, realtime_config=realtime)
+            with as_before():
+                self._robot = franky.Robot(driving.host, realtime_config=realtime)
             self._robot.set_collision_behavior(*driving.collision_behaviour())
         except franky.Exception as error:
             raise driving.unreachable(error) from error
@@ -122,7 +124,7 @@ class Franky:
     def end(self) -> None:
         """See `FrankaBackend`."""
         if self._motion is not None and self._robot.is_in_control:
-            with contextlib.suppress(self._driver.Exception):
+            with contextlib.suppress(self._driver.Exception), inherited(realtime=self._driving.realtime):
                 self._robot.move(self._driver.TorqueStopMotion(), asynchronous=True)
         self._join()
 
@@ -175,7 +177,8 @@ class Franky:
     @contextlib.contextmanager
     def _starting(self) -> Iterator[None]:
         try:
-            yield
+            with inherited(realtime=self._driving.realtime):  # its loop is a thread that this one starts
+                yield
         except self._driver.Exception as error:
             self._motion = None
             raise ArmFault(f"the arm doesn't start: {error}", mode=self.state().mode) from error

@@ -129,13 +129,15 @@ class Lab:
         wrench[:3] = -self.data.xfrc_applied[self.hand, :3]
         if self.data.ncon:
             ours = self.arm[self.sim.model.geom_bodyid[pairs]]
-            for i in np.flatnonzero(ours[:, 0] != ours[:, 1]):
-                contact, force = self.data.contact[i], np.zeros(6)
+            met = np.flatnonzero(ours[:, 0] != ours[:, 1])
+            forces = np.zeros((met.size, 6))
+            for i, force in zip(met, forces, strict=True):
                 mujoco.mj_contactForce(self.sim.model, self.data, i, force)
-                pushed = contact.frame.reshape(3, 3).T @ force[:3]  # on the second of the pair
-                pushed = pushed if ours[i, 0] else -pushed
-                wrench[:3] += pushed
-                wrench[3:] += np.cross(contact.pos - self.data.xpos[self.hand], pushed)
+            frames = self.data.contact.frame[met].reshape(-1, 3, 3)
+            pushed = np.einsum("nji,nj->ni", frames, forces[:, :3])  # on the second of each pair
+            pushed[~ours[met, 0]] *= -1.0
+            wrench[:3] += pushed.sum(axis=0)
+            wrench[3:] += np.cross(self.data.contact.pos[met] - self.data.xpos[self.hand], pushed).sum(axis=0)
         self.server.wrench += FORCE_FILTER * (wrench - self.server.wrench)
         if self.clock % 10 == 0:
             jacobian = np.zeros((6, self.sim.model.nv))
