@@ -204,8 +204,8 @@ PICK = SkillCall("pick", (OUT[0], OUT[1], OUT[2]))
 
 def test_what_the_hand_hides_is_in_it_until_it_lets_go_and_lost_if_it_isnt_seen_then(lab: Lab) -> None:
     lab.shoot("collecting_toy", drawer(toy=OUT), times=2)  # the look, and the one before the motion
-    hidden = 6 + 1 + 6  # after the pick, when it is observed; before the place; after it, and when it is observed
-    lab.shoot("collecting_toy", drawer(), times=3 * hidden)
+    hidden = 5 * 3  # each of five looks tries three pictures: at the pick, the place, and what is observed after each
+    lab.shoot("collecting_toy", drawer(), times=hidden)
     adapter = lab.open("collecting_toy")
     adapter.reset()
     assert run(adapter, PICK) is EndReason.ARRIVED
