@@ -89,6 +89,7 @@ class Store(Reads):
 
     async def close(self) -> None:
         """Commit what waits and let go of the database."""
+        await self.quality.settle()
         await self._database.close()
 
     # --- experiments ------------------------------------------------------------------------------------------------

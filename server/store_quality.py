@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 import time
 from collections import defaultdict
 from collections.abc import Mapping
@@ -34,15 +35,29 @@ from server.trainer_figures import Click, figures
 
 FRESH = 2.0
 """Seconds for which figures are told again instead of being computed anew: many look at them at once."""
+QUICK = 0.2
+"""Seconds that somebody who asks for figures is made to wait for newer ones; where they take longer, the last are told
+meanwhile."""
+SHARE = 10
+"""They are computed no more than a tenth of the time, however many clicks there are."""
+
+
+log = logging.getLogger("seed.quality")
 
 
 @dataclass(frozen=True)
 class _Told:
-    """When it was computed (CLOCK_MONOTONIC seconds), and what each person may see of themselves."""
+    """at: when it was computed, CLOCK_MONOTONIC; took: how long that was. In seconds. own: what each person may see."""
 
     at: float
+    took: float
     everybodys: LabelQuality
     own: Mapping[str, TrainerFigures]
+
+    @property
+    def fresh(self) -> bool:
+        """Whether it is told again as it is."""
+        return time.monotonic() - self.at < max(FRESH, SHARE * self.took)
 
 
 class QualityStore:
@@ -52,6 +67,12 @@ class QualityStore:
         self._database = database
         self._turns: defaultdict[int, asyncio.Lock] = defaultdict(asyncio.Lock)
         self._kept: dict[int, _Told] = {}
+        self._telling: dict[int, asyncio.Task[_Told]] = {}
+
+    async def settle(self) -> None:
+        """Wait for what is still computed."""
+        if self._telling:
+            await asyncio.wait(set(self._telling.values()))
 
     async def mark_gold(self, proposal_id: int, body: GoldMark) -> None:
         """Know the answer to a closed proposal. See `store_gold.mark`."""
@@ -87,11 +108,26 @@ class QualityStore:
     async def _told(self, experiment_id: int) -> _Told:
         """Computed once for all who look at it, beside the event loop: it takes in every click of the experiment."""
         await self._database.read(lambda s: load(s, experiment_id) and None)
+        kept = self._kept.get(experiment_id)
+        if kept is None or kept.took < QUICK:
+            return await self._told_anew(experiment_id)
+        if not kept.fresh and experiment_id not in self._telling:
+            telling = asyncio.create_task(self._told_anew(experiment_id), name=f"figures of experiment {experiment_id}")
+            self._telling[experiment_id] = telling
+            telling.add_done_callback(lambda task: self._end(experiment_id, task))
+        return kept
+
+    async def _told_anew(self, experiment_id: int) -> _Told:
         async with self._turns[experiment_id]:
             kept = self._kept.get(experiment_id)
-            if kept is None or time.monotonic() - kept.at >= FRESH:
+            if kept is None or not kept.fresh:
                 kept = self._kept[experiment_id] = await self._database.read(lambda s: _tell(s, experiment_id))
             return kept
+
+    def _end(self, experiment_id: int, task: asyncio.Task[_Told]) -> None:
+        del self._telling[experiment_id]
+        if not task.cancelled() and (error := task.exception()) is not None:
+            log.warning("figures of experiment %s can't be computed: %s", experiment_id, error)
 
     async def measure(self, experiment_id: int) -> bool:
         """Estimate each trainer's reliability anew, and store it; False where there is nothing to compare yet."""
@@ -234,7 +270,7 @@ def _row(experiment_id: int, trainer_id: int, each: Reliability) -> ReliabilityR
 
 
 def _tell(session: Session, experiment_id: int) -> _Told:
-    at = time.monotonic()
+    began = time.monotonic()
     clicks, estimates = _clicks(session, experiment_id), _estimates(session, experiment_id)
     told = LabelQuality(
         experiment_id=experiment_id,
@@ -243,7 +279,8 @@ def _tell(session: Session, experiment_id: int) -> _Told:
         trainers=figures(clicks, estimates),
     )
     own = {each.trainer: each for each in figures(clicks, {}, own=True) if each.kind == "person"}
-    return _Told(at, told, own)
+    ended = time.monotonic()
+    return _Told(ended, ended - began, told, own)
 
 
 def _agreement(clicks: list[Click]) -> AgreementInfo:

@@ -68,7 +68,11 @@ def test_the_form_of_a_new_experiment_says_what_is_wrong(page: Page, service: Li
 
 def test_an_experiment_that_does_not_exist_says_so(page: Page, service: LiveService) -> None:
     page.goto(f"{service.url}/experiments/999999")
-    expect(page.get_by_role("alert")).to_contain_text("999999")
+    expect(page.get_by_role("alert")).to_contain_text("There is no experiment 999999.")
+    page.evaluate("localStorage.setItem('seed.language', 'de')")
+    page.reload()
+    expect(page.get_by_role("alert")).to_contain_text("Experiment 999999 gibt es nicht.")
+    page.evaluate("localStorage.setItem('seed.language', 'en')")
     page.goto(f"{service.url}/nowhere")
     expect(page.get_by_role("heading")).to_have_text("There is no such page")
 

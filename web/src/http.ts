@@ -1,6 +1,7 @@
 // REST: JSON in and out; every failure becomes an `ApiError` that carries problem details with a remedy.
 import { at } from "./base";
 import { t } from "./i18n";
+import { inWords } from "./i18n/said";
 import { ME, may, signedOut } from "./me";
 import type {
   AdapterInfo,
@@ -85,7 +86,7 @@ async function problemFrom(response: Response): Promise<Problem> {
     fields: [],
   };
   try {
-    return { ...fallback, ...((await response.json()) as Partial<Problem>) };
+    return inWords({ ...fallback, ...((await response.json()) as Partial<Problem>) });
   } catch {
     return fallback;
   }

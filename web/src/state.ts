@@ -3,6 +3,7 @@
 import { addMetric, addPoint, type CurvePoint } from "./curve";
 import { type History, loaded, remember, withExecution, withOwn } from "./history";
 import { skillName, t } from "./i18n";
+import { inOneLine, said } from "./i18n/said";
 import { ME } from "./me";
 import type { Click } from "./outbox";
 import { isOpen, type Judged, type RobotState, STILL, saying, shownRobot } from "./robots";
@@ -356,7 +357,7 @@ function onAcknowledged(state: TrainerState, requestId: string, feedback: Feedba
     return withUndoable(next, feedback);
   if (feedback?.status !== "late") return next;
   const late = t("notice.late", { word: wordFor(feedback.value) });
-  const because = feedback.late_because;
+  const because = feedback.late_because && said(feedback.late_because);
   return withNotice(next, "warning", because ? `${late} ${t("notice.lateBecause", { because })}` : late);
 }
 
@@ -364,7 +365,7 @@ function onRefused(state: TrainerState, requestId: string | null, problem: Probl
   // A fault of the service (disk full, ...) keeps the click: the session sends it again.
   const kept = problem.status >= 500;
   const pending = requestId && !kept ? without(state.pending, requestId) : state.pending;
-  return withNotice({ ...state, pending }, "error", `${problem.detail} ${problem.remedy}`);
+  return withNotice({ ...state, pending }, "error", inOneLine(problem));
 }
 
 function withEvaluation(

@@ -20,8 +20,15 @@ export function labelKey(value: Value | undefined): "bad" | "neutral" | "good" |
   return LABELS.find((each) => each.value === value)?.key ?? "none";
 }
 
+/** Marks belong to their picture: until it is there, and while an earlier one is still shown, there are none. */
+function useLoaded({ url }: View): [boolean, () => void] {
+  const [loaded, setLoaded] = useState<string | null>(null);
+  return [loaded === url, () => setLoaded(url)];
+}
+
 export function Picture(props: { view: View; judged?: boolean; overlay?: boolean }) {
   const { view, judged, overlay = true } = props;
+  const [loaded, setLoaded] = useLoaded(view);
   return (
     <div className="pictured" style={{ aspectRatio: `${view.width} / ${view.height}` }}>
       <img
@@ -31,8 +38,9 @@ export function Picture(props: { view: View; judged?: boolean; overlay?: boolean
         decoding="async"
         width={view.width}
         height={view.height}
+        onLoad={setLoaded}
       />
-      {overlay && (
+      {overlay && loaded && (
         <OverlayDrawing
           overlay={view.overlay}
           width={view.width}
@@ -48,6 +56,7 @@ export function Picture(props: { view: View; judged?: boolean; overlay?: boolean
 /** A thumbnail's marks: too small to be explained, so only the dot and the line. */
 export function Thumb({ view }: { view: View }) {
   const { dot, line } = view.overlay;
+  const [loaded, setLoaded] = useLoaded(view);
   return (
     <>
       <img
@@ -57,8 +66,13 @@ export function Thumb({ view }: { view: View }) {
         decoding="async"
         width={view.width}
         height={view.height}
+        onLoad={setLoaded}
       />
-      <svg viewBox={`0 0 ${view.width} ${view.height}`} aria-hidden="true">
+      <svg
+        style={{ visibility: loaded ? undefined : "hidden" }}
+        viewBox={`0 0 ${view.width} ${view.height}`}
+        aria-hidden="true"
+      >
         {line && (
           <path
             className="mark"

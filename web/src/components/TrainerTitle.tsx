@@ -1,5 +1,6 @@
 import { useState } from "react";
 import { t } from "../i18n";
+import { sentence } from "../i18n/said";
 import type { Session } from "../session";
 import type { Experiment, Verb } from "../wire";
 import type { Question } from "./Dialog";
@@ -22,12 +23,6 @@ export function finishQuestion(name: string, act: () => void): Question {
     testId: "finish-confirm",
     act,
   };
-}
-
-/** The service's words, which come in lower case and without a full stop. */
-function sentences(words: string): string {
-  const text = words.replace(/(^|[.!?] )(\p{Ll})/gu, (start) => start.toUpperCase());
-  return /[.!?]$/.test(text) ? text : `${text}.`;
 }
 
 export function TrainerTitle({ experiment, session, onAsk }: TrainerTitleProps) {
@@ -67,7 +62,7 @@ export function TrainerTitle({ experiment, session, onAsk }: TrainerTitleProps) 
       {failed && (
         <div className="banner" role="alert" data-testid="failed">
           <div>
-            <b>{t("title.failed")}</b> {sentences(experiment.failure ?? t("title.failedHow"))}
+            <b>{t("title.failed")}</b> {sentence(experiment.failure ?? t("title.failedHow"))}
           </div>
           {verbs}
         </div>

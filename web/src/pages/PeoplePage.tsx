@@ -121,7 +121,7 @@ function Invite({ onMade }: { onMade: () => void }) {
       </div>
       {problem && (
         <p className="error" role="alert">
-          {problem.detail}. {problem.remedy}
+          {problem.detail} {problem.remedy}
         </p>
       )}
       <button type="submit" className="button primary" disabled={errors.some(Boolean)} data-testid="invite">
@@ -165,7 +165,7 @@ function PersonRow(props: { person: Person; onAsk: (question: Question) => void;
         </p>
         {problem && (
           <p className="error" role="alert">
-            {problem.detail}. {problem.remedy}
+            {problem.detail} {problem.remedy}
           </p>
         )}
       </div>
@@ -241,7 +241,7 @@ export function PeoplePage() {
   return (
     <>
       <Header back />
-      <main className="page narrow">
+      <main className="page narrow people">
         <div className="title-row">
           <h1 className="title-text">{t("people.title")}</h1>
           <a className="button" href={http.auditTable()} download data-testid="audit">

@@ -35,7 +35,7 @@ export function SignInPage() {
       location.replace(next());
     } catch (error) {
       const told = http.problemOf(error);
-      if (told.detail.startsWith("name:")) setAsksName(true);
+      if (/^name:/i.test(told.detail)) setAsksName(true);
       setProblem(told);
       setBusy(false);
     }
@@ -68,7 +68,7 @@ export function SignInPage() {
           )}
           {problem && (
             <p className="error" role="alert" data-testid="sign-in-problem">
-              {problem.detail}. {problem.remedy}
+              {problem.detail} {problem.remedy}
             </p>
           )}
           <button
