@@ -85,6 +85,11 @@ ABLATIONS: Mapping[str, Ablation] = MappingProxyType(
             "Every label is taken at its word; those of like calls don't vote on it.",
             consensus=0.0,
         ),
+        "trainer_reliability": _without(
+            "trainers alike",
+            "Where several trainers judge, all their votes weigh the same. Without effect where one does.",
+            trainer_reliability=False,
+        ),
         "twin_critic": _without("one critic", "A single critic instead of the lower of two.", critics=1),
         "gradient_steps": _without(
             "5 steps a label", "As few gradient steps as in the paper, not 20.", gradient_steps=5
@@ -148,7 +153,13 @@ def _ladder() -> Mapping[str, Ablation]:
             ("explore_elimination",),
         ),
         ("recall", "+ recall", "Calls that were good are candidates again.", ("recall",)),
-        ("consensus", "+ consensus", "Labels of like calls vote on each other: `recommended`.", ("consensus",)),
+        ("consensus", "+ consensus", "Labels of like calls vote on each other.", ("consensus",)),
+        (
+            "trainer_reliability",
+            "+ trainer reliability",
+            "Votes weigh as much as their trainers can be believed: `recommended`.",
+            ("trainer_reliability",),
+        ),
     )
     paper, missing = SeedSettings(**PAPER_SIM).model_dump(), set(RECOMMENDED)
     ladder = {}

@@ -73,6 +73,7 @@ class Label:
 
     id: the feedback's id in the store, ascending. state: (n,). value: -1, 0 or +1.
     near: whether the call's position is within reach of a task-relevant object (the paper's affordance).
+    trainer: whose it is, a number that tells trainers apart and nothing else of them; 0: not known.
     """
 
     id: int
@@ -80,6 +81,7 @@ class Label:
     call: SkillCall
     value: int
     near: bool = True
+    trainer: int = 0
 
 
 class Algorithm(Protocol):

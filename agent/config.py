@@ -177,6 +177,13 @@ class SeedSettings(BaseModel):
             "vote on each other, because trainers err: a label means what most of those say; 0 takes each at its word",
         ),
     ] = 0.0
+    trainer_reliability: Annotated[
+        bool,
+        Field(
+            description="with `consensus`, where several trainers judge: a vote weighs as much as its trainer's labels "
+            "agree with what the others around them let expect; otherwise all weigh the same"
+        ),
+    ] = False
     explore_elimination: Annotated[
         bool,
         Field(
@@ -254,6 +261,7 @@ RECOMMENDED: Mapping[str, Any] = MappingProxyType(
         "recall": 16,
         "explore_elimination": True,
         "consensus": 0.008,
+        "trainer_reliability": True,
     }
 )
 """What needs the fewest clicks (measured by `tests/benchmarks/clicks_kinematic.py`)."""

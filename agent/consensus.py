@@ -3,6 +3,7 @@
 Two labels are alike if their calls do the same in what looks like the same situation: the same skill at the same key
 point, an offset within the tolerance, and alike heights and flags in the state. Where objects lie doesn't matter, for
 the key point moves with them. A label counts as its own vote and those of its likes add up to; a tie says nothing.
+Where trainers differ in how far they can be believed (`agent.reliability`), a vote weighs as much as its trainer.
 """
 
 from __future__ import annotations
@@ -14,7 +15,8 @@ import torch
 from numpy.typing import NDArray
 
 from agent.grounding import Grounding
-from agent.replay import Batch, Float32
+from agent.reliability import Likeness, weights
+from agent.replay import Batch, Float32, Int64
 
 SITUATION = 0.1
 """State entries that differ by no more than this, scaled to [-1, 1], are alike: a centimetre or two of height."""
@@ -22,30 +24,52 @@ OTHER = 0.12
 """The same of a parameter that is no position, such as a yaw."""
 APART = 10.0
 """Further than any two that are alike."""
+SAYS_SOMETHING = 0.5
+"""Votes that add up to less are as good as a tie; a vote of the trainer who can be believed most weighs 1."""
 
 
 class Consensus:
     """Compares labels of one task."""
 
-    def __init__(self, grounding: Grounding, state_size: int, positions: Sequence[int], tolerance: float) -> None:
-        """positions: indices into the state where an x stands with its y right after. tolerance: m."""
-        self._grounding, self._tolerance = grounding, tolerance
+    def __init__(
+        self,
+        grounding: Grounding,
+        state_size: int,
+        positions: Sequence[int],
+        tolerance: float,
+        *,
+        weighed: bool = False,
+    ) -> None:
+        """positions: indices into the state where an x stands with its y right after. tolerance: m.
+
+        weighed: votes weigh as much as their trainers can be believed; otherwise all alike.
+        """
+        self._grounding, self._tolerance, self._weighed = grounding, tolerance, weighed
         planar = {column for x in positions for column in (x, x + 1)}
         self._flags = np.array([column for column in range(state_size) if column not in planar], dtype=np.int64)
 
-    def believed(self, batch: Batch, values: NDArray[np.int8]) -> NDArray[np.int8]:
-        """(B,) labels -1, 0, +1 -> what each is believed to say; neutral stays neutral."""
-        features = self._features(batch)
-        votes = np.zeros(len(values), dtype=np.int64)
-        for option in np.unique(features[:, 0]):
-            rows = np.flatnonzero(features[:, 0] == option)
-            ours = features[rows]
-            alike = np.abs(ours[:, None] - ours[None]).max(axis=-1) <= 1.0
-            votes[rows] = alike @ values[rows].astype(np.int64)
-        return np.where(values == 0, 0, np.sign(votes)).astype(np.int8)
+    def believed(self, batch: Batch, values: NDArray[np.int8], trainers: Int64) -> NDArray[np.int8]:
+        """(B,) labels -1, 0, +1 and whose they are -> what each is believed to say; neutral stays neutral."""
+        what, situation = self._features(batch)
+        likenesses = []
+        for option in np.unique(what[:, 0]):
+            rows = np.flatnonzero(what[:, 0] == option)
+            seen = _apart(situation[rows]) <= 1.0
+            likenesses.append(Likeness(rows, np.where(seen, _apart(what[rows]), APART)))
+        votes = values.astype(np.float64)
+        if self._weighed:
+            votes *= weights(likenesses, values, trainers)
+        told = np.zeros(len(values))
+        for likeness in likenesses:
+            told[likeness.rows] = (likeness.apart <= 1.0) @ votes[likeness.rows]
+        believed = np.sign(np.where(np.abs(told) < SAYS_SOMETHING, 0.0, told))
+        return np.where(values == 0, 0, believed).astype(np.int8)
 
-    def _features(self, batch: Batch) -> Float32:
-        """(B, D): rows that differ by no more than 1 everywhere are alike; the first column is the option."""
+    def _features(self, batch: Batch) -> tuple[Float32, Float32]:
+        """What calls do (B, D) and what the situation is (B, E): alike are rows that differ by no more than 1.
+
+        The first column of the former is the option.
+        """
         ground = self._grounding
         skills, parameters = torch.from_numpy(batch.skills), torch.from_numpy(batch.parameters)
         options, local = ground.encode(skills, parameters, torch.from_numpy(batch.keypoints))
@@ -68,5 +92,11 @@ class Consensus:
         seen = states[:, self._flags] / SITUATION * ~placeless[:, None]
         absolute = located & ~at_keypoint & ~placeless
         everything = states / SITUATION * absolute[:, None]
-        told: Float32 = torch.cat([options[:, None].float(), what, seen, everything], dim=1).numpy()
-        return told
+        done = torch.cat([options[:, None].float(), what], dim=1).numpy()
+        return done, torch.cat([seen, everything], dim=1).numpy()
+
+
+def _apart(features: Float32) -> Float32:
+    """(N, D) -> (N, N) how far two differ at most."""
+    apart: Float32 = np.abs(features[:, None] - features[None]).max(axis=-1, initial=0.0)
+    return apart

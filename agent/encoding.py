@@ -137,6 +137,7 @@ class Encoder:
             value=int(label.value),
             target=float(label.value) - (0.0 if label.near else affordance_penalty),
             keypoints=self.keypoints(label.state),
+            trainer=label.trainer,
         )
 
     def call(self, skill: int, parameters: Array) -> SkillCall:

@@ -28,6 +28,7 @@ class Entry:
     state: (n,) scaled. skill: index. parameters: (P,) in [-1, 1], padded with 0. value: -1, 0 or +1.
     target: what the critic regresses: the value, less the affordance penalty where it applies.
     keypoints: (K, M, 3) m, robot base frame, of each skill; empty where no setting asks for them.
+    trainer: as in `agent.algorithm.Label`.
     """
 
     id: int
@@ -37,6 +38,7 @@ class Entry:
     value: int
     target: float
     keypoints: Float32 = field(default_factory=lambda: np.zeros(NO_KEYPOINTS, dtype=np.float32))
+    trainer: int = 0
 
 
 @dataclass(frozen=True)
@@ -63,8 +65,8 @@ class Batch:
         return [Batch(**{name: parts[at] for name, parts in named.items()}) for at in range(count)]
 
 
-Believed = Callable[[Batch, NDArray[np.int8]], NDArray[np.int8]]
-"""B labels and their values (B,) -> the values that they are believed to mean (B,)."""
+Believed = Callable[[Batch, NDArray[np.int8], Int64], NDArray[np.int8]]
+"""B labels, their values (B,) and whose they are (B,) -> the values that they are believed to mean (B,)."""
 
 
 def shares(counts: Mapping[int, int], size: int) -> dict[int, int]:
@@ -115,6 +117,7 @@ class Replay:
         self._skills = np.zeros(INITIAL_CAPACITY, dtype=np.int64)
         self._parameters = np.zeros((INITIAL_CAPACITY, parameter_size), dtype=np.float32)
         self._values = np.zeros(INITIAL_CAPACITY, dtype=np.int8)
+        self._trainers = np.zeros(INITIAL_CAPACITY, dtype=np.int64)
         self._targets = np.zeros(INITIAL_CAPACITY, dtype=np.float32)
         self._keypoints = np.zeros((INITIAL_CAPACITY, *keypoints), dtype=np.float32)
         self._by_value: dict[int, NDArray[np.int64]] | None = None
@@ -152,6 +155,7 @@ class Replay:
         self._skills[at] = entry.skill
         self._parameters[at] = entry.parameters
         self._values[at] = entry.value
+        self._trainers[at] = entry.trainer
         self._targets[at] = entry.target
         self._keypoints[at] = entry.keypoints
         self._size += 1
@@ -256,7 +260,7 @@ class Replay:
         if self._means is None:
             newest = np.arange(max(0, self._size - RECENT), self._size)
             self._means = self._values[: self._size].copy()
-            self._means[newest] = self._believed(self._said(newest), self._values[newest])
+            self._means[newest] = self._believed(self._said(newest), self._values[newest], self._trainers[newest])
         return self._means
 
     def _rows(self) -> dict[int, NDArray[np.int64]]:
@@ -276,6 +280,7 @@ class Replay:
             self._skills,
             self._parameters,
             self._values,
+            self._trainers,
             self._targets,
             self._keypoints,
         )
@@ -287,6 +292,7 @@ class Replay:
             self._skills,
             self._parameters,
             self._values,
+            self._trainers,
             self._targets,
             self._keypoints,
         ) = (_doubled(column) for column in self._columns())

@@ -71,7 +71,13 @@ class Seed:
         self._trainer, self._place = Trainer([self._networks], objective), 0
         consensus = None
         if settings.consensus:
-            consensus = Consensus(self._grounding, layout.state_size, problem.position_fields, settings.consensus)
+            consensus = Consensus(
+                self._grounding,
+                layout.state_size,
+                problem.position_fields,
+                settings.consensus,
+                weighed=settings.trainer_reliability,
+            )
         self._replay = Replay(
             layout.state_size,
             layout.width,

@@ -328,4 +328,5 @@ def _wire(label: StoredLabel) -> dict[str, Any]:
         "skill": label.skill,
         "parameters": list(label.parameters),
         "value": label.value,
+        "trainer": label.trainer,
     }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sqlalchemy import ColumnElement, or_, select
+from sqlalchemy import ColumnElement, func, or_, select
 from sqlalchemy.orm import Session
 
 from server.models import FeedbackRow, ObservationRow, ProposalRow, RelabelRow, TrainerRow
@@ -90,9 +90,17 @@ def _must_be_correctable(row: FeedbackRow, proposal: ProposalRow, by: str, *, an
 
 
 def _labels(session: Session, *where: ColumnElement[bool], limit: int | None = None) -> list[StoredLabel]:
-    value = FeedbackRow.label
+    corrector = (
+        select(RelabelRow.trainer_id)
+        .where(RelabelRow.feedback_id == FeedbackRow.id)
+        .order_by(RelabelRow.id.desc())
+        .limit(1)
+        .correlate(FeedbackRow)
+        .scalar_subquery()
+    )
+    value, trainer_id = FeedbackRow.label, func.coalesce(corrector, FeedbackRow.trainer_id)
     query = (
-        select(FeedbackRow.id, ObservationRow.state, ProposalRow.skill, ProposalRow.parameters, value)
+        select(FeedbackRow.id, ObservationRow.state, ProposalRow.skill, ProposalRow.parameters, value, trainer_id)
         .join(ProposalRow, ProposalRow.id == FeedbackRow.proposal_id)
         .join(ObservationRow, ObservationRow.id == ProposalRow.observation_id)
         .where(
@@ -110,6 +118,6 @@ def _labels(session: Session, *where: ColumnElement[bool], limit: int | None = N
         .limit(limit)
     )
     return [
-        StoredLabel(feedback_id, tuple(state), skill, tuple(parameters), label)
-        for feedback_id, state, skill, parameters, label in session.execute(query)
+        StoredLabel(feedback_id, tuple(state), skill, tuple(parameters), label, whose)
+        for feedback_id, state, skill, parameters, label, whose in session.execute(query)
     ]

@@ -56,13 +56,17 @@ class NewProposal:
 
 @dataclass(frozen=True)
 class StoredLabel:
-    """A counted feedback as the learner needs it; one per trainer of a proposal that got a verdict."""
+    """A counted feedback as the learner needs it; one per trainer of a proposal that got a verdict.
+
+    trainer: a number for who says so: whoever corrected it last, or else who clicked.
+    """
 
     feedback_id: int
     state: tuple[float, ...]
     skill: str
     parameters: tuple[float, ...]
     value: int
+    trainer: int
 
 
 @dataclass(frozen=True)

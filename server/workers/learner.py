@@ -287,7 +287,7 @@ def _label(task: Task, stored: Mapping[str, Any]) -> Label:
             remedy="the task was changed after this feedback was given: put it back as it was and resume, or create a"
             " new experiment",
         )
-    return Label(stored["id"], state, call, stored["value"], near(task, state, call))
+    return Label(stored["id"], state, call, stored["value"], near(task, state, call), stored["trainer"])
 
 
 def _problem(task: Task) -> Problem:

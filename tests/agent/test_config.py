@@ -46,6 +46,7 @@ def test_the_papers_presets_use_nothing_the_paper_lacks(preset: str) -> None:
     assert (s.keypoints, s.relative_critic, s.grounded_actor, s.candidates, s.recall) == ("none", False, False, 0, 0)
     assert (s.augment_translation, s.augment_flip, s.augment_rotation) == (0.0, False, False)
     assert (s.explore_elimination, s.consensus, s.balanced_replay) == (False, 0.0, True)
+    assert not s.trainer_reliability
 
 
 def test_every_setting_is_described_and_bounded() -> None:

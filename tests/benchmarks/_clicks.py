@@ -13,7 +13,7 @@ import statistics
 import zlib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import torch
@@ -33,21 +33,29 @@ FIRST_SEED = 10
 FIRST_START = 10_000
 """Evaluation episodes start from layouts with these seeds on; training draws others."""
 
-Judge = Callable[[Task, Array, SkillCall, np.random.Generator], int | None]
-"""A click on a call in a state (n,): -1, 0 or +1; None for no answer."""
+
+class Click(NamedTuple):
+    """An answer -1, 0 or +1, and whose it is."""
+
+    value: int
+    trainer: int = 1
 
 
-def right(task: Task, state: Array, call: SkillCall, _: np.random.Generator) -> int:
+Judge = Callable[[Task, Array, SkillCall, np.random.Generator], Click | None]
+"""A click on a call in a state (n,); None for no answer."""
+
+
+def right(task: Task, state: Array, call: SkillCall, _: np.random.Generator) -> Click:
     """The task's rule."""
-    return task.judge(state, call)
+    return Click(task.judge(state, call))
 
 
 def wrong(share: float) -> Judge:
     """The task's rule, but each label is flipped with this probability, as the teacher `noisy` does."""
 
-    def judge(task: Task, state: Array, call: SkillCall, dice: np.random.Generator) -> int:
+    def judge(task: Task, state: Array, call: SkillCall, dice: np.random.Generator) -> Click:
         value = task.judge(state, call)
-        return -value if dice.random() < share else value
+        return Click(-value if dice.random() < share else value)
 
     return judge
 
@@ -55,8 +63,10 @@ def wrong(share: float) -> Judge:
 def seldom(share: float, otherwise: int | None) -> Judge:
     """The task's rule for this share of the proposals, any of them; `otherwise` (neutral, or nothing) for the rest."""
 
-    def judge(task: Task, state: Array, call: SkillCall, dice: np.random.Generator) -> int | None:
-        return task.judge(state, call) if dice.random() < share else otherwise
+    def judge(task: Task, state: Array, call: SkillCall, dice: np.random.Generator) -> Click | None:
+        if dice.random() < share:
+            return Click(task.judge(state, call))
+        return None if otherwise is None else Click(otherwise)
 
     return judge
 
@@ -68,16 +78,16 @@ def disagreeing(share: float) -> Judge:
     same.
     """
 
-    def judge(task: Task, state: Array, call: SkillCall, dice: np.random.Generator) -> int:
+    def judge(task: Task, state: Array, call: SkillCall, dice: np.random.Generator) -> Click:
         value = task.judge(state, call)
         if dice.random() < 0.5:
-            return value
+            return Click(value)
         points = task.keypoints(state, call.skill)
         position = np.resize(np.array([*call.parameters[:3], 0.0, 0.0, 0.0]), 3)  # a skill may act nowhere
         nearest = points[np.argmin(np.linalg.norm(points - position, axis=1))] if len(points) else np.zeros(3)
         place = [int(each) for each in np.floor((position - nearest) / PLACE)]
         mind = zlib.crc32(repr((call.skill, task.subgoal(state), place)).encode()) / 2**32
-        return -value if mind < share else value
+        return Click(-value if mind < share else value, trainer=2)
 
     return judge
 
@@ -161,16 +171,16 @@ def train(setup: Setup, seed: int) -> Outcome:
         state = acting.reset(start_of(seed, 0)).state
         while answers < setup.budget:
             call = learner.propose(state).call
-            value = setup.judge(task, state, call, dice)
+            click = setup.judge(task, state, call, dice)
             shown += 1
-            if value is not None:
-                learner.add([Label(shown, state, call, value)])
+            if click is not None:
+                learner.add([Label(shown, state, call, click.value, trainer=click.trainer)])
                 while learner.owed_updates:
                     learner.update()
-            if not value:
+            if click is None or not click.value:
                 continue
             answers += 1
-            if value == 1:
+            if click.value == 1:
                 result, executed = execute(acting, call), executed + 1
                 over = result.success or result.violations or executed == task.horizon
                 if over:

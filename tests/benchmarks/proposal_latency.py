@@ -88,7 +88,8 @@ def _labels(task: Task, rng: np.random.Generator) -> list[dict[str, Any]]:
         parameters = spec.denormalise(rng.uniform(-1, 1, len(spec.parameters))).tolist()
         state = rng.uniform(low, high).tolist()
         value = 1 if label_id % 3 == 0 else -1
-        made.append({"id": label_id, "state": state, "skill": spec.name, "parameters": parameters, "value": value})
+        call = {"skill": spec.name, "parameters": parameters}
+        made.append({"id": label_id, "state": state, **call, "value": value, "trainer": 1})
     return made
 
 

@@ -1,4 +1,4 @@
-"""An algorithm that tells which labels it holds, in the place of its skills' probabilities."""
+"""An algorithm that tells which labels it holds, and from how many trainers, in the place of what it thinks."""
 
 from __future__ import annotations
 
@@ -22,17 +22,19 @@ class Candid(Scripted):
 
     def __init__(self, problem: Problem, settings: ScriptedSettings, seed: int) -> None:
         super().__init__(problem, settings, seed)
-        self._held: dict[int, int] = {}
+        self._held: dict[int, Label] = {}
 
     def propose(self, state: Array, *, deterministic: bool = False) -> Suggestion:
-        """As `Scripted`, with feedback id -> value of every label held."""
-        held = {str(label_id): float(value) for label_id, value in sorted(self._held.items())}
-        return replace(super().propose(state, deterministic=deterministic), skill_probabilities=held)
+        """As `Scripted`, with feedback id -> value of every label held; uncertainty: how many trainers gave them."""
+        held = {str(label_id): float(label.value) for label_id, label in sorted(self._held.items())}
+        trainers = float(len({label.trainer for label in self._held.values()}))
+        suggestion = super().propose(state, deterministic=deterministic)
+        return replace(suggestion, skill_probabilities=held, uncertainty=trainers)
 
     def add(self, labels: Sequence[Label]) -> None:
         """Hold them."""
         super().add(labels)
-        self._held |= {label.id: label.value for label in labels}
+        self._held |= {label.id: label for label in labels}
 
     def restore(self, labels: Sequence[Label]) -> None:
         """Hold these and no others."""
@@ -45,7 +47,7 @@ class Candid(Scripted):
 
     def relabel(self, label: Label) -> None:
         """Hold it as it is now."""
-        self._held[label.id] = label.value
+        self._held[label.id] = label
 
 
 class CandidFactory:

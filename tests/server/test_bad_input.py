@@ -81,7 +81,7 @@ async def test_labels_that_come_in_parts_are_taken_together_or_not_at_all() -> N
     try:
         built = {"task": "stacking", "algorithm": "seed", "settings": SMALL, "seed": 0, "lockstep": True}
         await learner.call("configure", deadline=PATIENCE, threads=1, device="cpu", **built)
-        stored = {"state": [0.5] * 6, "skill": "pick", "parameters": [0.5, 0.0, -0.09], "value": 1}
+        stored = {"state": [0.5] * 6, "skill": "pick", "parameters": [0.5, 0.0, -0.09], "value": 1, "trainer": 1}
         parts = [[stored | {"id": number} for number in ids] for ids in ((1, 2), (3,), ())]
         bad = [stored | {"id": 4, "skill": "juggle"}]
         await learner.call("restore", deadline=PATIENCE, labels=parts[0], more=True)
@@ -105,7 +105,8 @@ async def test_feedback_about_what_the_task_no_longer_has_is_told() -> None:
         built = {"task": "stacking", "algorithm": "seed", "settings": SMALL, "seed": 0, "lockstep": True}
         built |= {"threads": 1, "device": "cpu"}
         await learner.call("configure", deadline=PATIENCE, **built)
-        stored = {"id": 7, "state": [0.5] * 6, "skill": "pick", "parameters": [0.5, 0.0, -0.09], "value": 1}
+        stored = {"id": 7, "state": [0.5] * 6, "skill": "pick", "parameters": [0.5, 0.0, -0.09]}
+        stored |= {"value": 1, "trainer": 1}
         for change, told in (
             ({"skill": "juggle"}, "no skill 'juggle'"),
             ({"parameters": [0.5, 0.0]}, "pick takes 3 parameters, got 2"),

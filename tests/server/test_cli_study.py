@@ -134,7 +134,7 @@ def test_an_ablation_also_goes_step_by_step_from_the_paper_to_the_preset(tmp_pat
     options = ["--ladder", "--adapter", "kinematic", "--seeds", 1, "--budget", 1, "--evaluations", 1, "--rollouts", 1]
     wrong(["study", "ablation", "--without", "recall", *options, "--out", out], "--without", "--ladder")
     done = told(["study", "ablation", *options, "--out", out])
-    assert [done["results"][at]["algorithm"] for at in (0, -1)] == ["paper", "consensus"]
+    assert [done["results"][at]["algorithm"] for at in (0, -1)] == ["paper", "trainer_reliability"]
     wrong(["study", "ablation", "--resume", "--ladder", "--out", out], "--ladder", "--resume")
 
 

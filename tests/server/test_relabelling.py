@@ -71,6 +71,9 @@ async def test_what_counts_for_nothing_is_not_corrected_nor_what_is_open_nor_ano
     assert await _counted(store, experiment_id) == {"feedback": 2, "good": 2, "late": 1}
     done = await store.relabel(anns.id, corrected(-1, trainer="bob"), anybodys=True)
     assert (done.feedback.trainer, done.feedback.relabels[0].trainer) == ("ann", "bob")
+    corrected_one, bobs = await store.labels(experiment_id)
+    assert corrected_one.feedback_id == anns.id
+    assert corrected_one.trainer == bobs.trainer, "whoever corrects a label answers for it"
     fourth = await opened(store, experiment_id, electorate=panel)
     taken = (await store.submit_feedback(fourth.id, click(1, trainer="ann"))).feedback
     await store.undo_feedback(taken.id)
@@ -112,6 +115,24 @@ async def test_the_learner_follows_at_once_and_a_new_one_starts_with_the_same_la
         _, anew = await held_by(s, proposal)
         assert {k: v for k, v in anew.items() if k in held} == held
         assert (await s.store.executions(experiment.id)).items == []
+
+
+async def test_the_learner_tells_trainers_apart_also_after_a_restart(tmp_path: Path, plugins: None) -> None:
+    async with stage(tmp_path) as s:
+        experiment = await s.experiment(**CANDID, lockstep=True)
+        await s.hub.act(experiment.id, "start")
+        given: list[Feedback] = []
+        for trainer in ("ann", "bob", "ann"):
+            proposal = await s.proposal(s.now if given else 0, number=len(given) + 1)
+            body = s.click(-1).model_copy(update={"trainer": trainer})
+            given.append((await s.hub.feedback(proposal.id, body))[0])
+        at = s.now
+        assert (await s.proposal(number=4)).uncertainty == 2
+        os.kill(s.hub.worker_pids(experiment.id)["learner"], signal.SIGKILL)
+        await s.seen.next(WorkerChanged, at, where=lambda e: e.status == "restarted")
+        await s.hub.relabel(given[1].id, corrected(1, trainer="ann"), anybodys=True)
+        proposal, _ = await held_by(s, await s.proposal(number=4))
+        assert proposal.uncertainty == 2, "ann, and whoever judged since"
 
 
 async def test_can_t_tell_lets_the_next_proposal_come_and_a_correction_reaches_everyone(tmp_path: Path) -> None:

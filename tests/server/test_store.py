@@ -271,7 +271,8 @@ async def test_labels_are_the_counted_clicks_in_order(store: Store) -> None:
         await store.submit_feedback(proposal.id, click(1))  # late
     labels = await store.labels(experiment_id)
     assert [label.value for label in labels] == values
-    assert labels[1] == StoredLabel(labels[1].feedback_id, (0.1, 0.2, 0.3), "pick", (0.51, 0.1, -0.1), -1)
+    ids = (labels[1].feedback_id, labels[1].trainer)
+    assert labels[1] == StoredLabel(ids[0], (0.1, 0.2, 0.3), "pick", (0.51, 0.1, -0.1), -1, ids[1])
     assert await store.labels(experiment_id, labels[1].feedback_id) == labels[2:]
 
 

@@ -85,7 +85,8 @@ async def learner() -> Worker:
 
 def label(number: int, value: int) -> dict[str, Any]:
     state = [0.56, 0.0, -0.09, 0.6, 0.1, -0.087]
-    return {"id": number, "state": state, "skill": "pick", "parameters": [0.56, 0.0, -0.09], "value": value}
+    call = {"skill": "pick", "parameters": [0.56, 0.0, -0.09]}
+    return {"id": number, "state": state, **call, "value": value, "trainer": 1}
 
 
 def gone(pid: int) -> bool:
