@@ -45,7 +45,7 @@ from server.schemas_trust import VerdictSource
 from server.seating import Seating
 from server.store import Store, StoreError
 from server.store_values import Concluded, NewProposal, Relabelled, Submission
-from server.worker import WorkerDied
+from server.waiting import news_or_death
 
 
 class Desk:
@@ -183,7 +183,8 @@ class Desk:
         ahead = None
         if clicked is not None and refused is None and self._ends(body):
             ahead = self.ahead.take({proposal.observation_id for proposal in self._open.values()})
-        storing = self._store.submit_feedback(proposal_id, body, kind=kind, refused=refused)
+        had = kind == "person" and self._seating.proposal_of(body.trainer) == proposal_id
+        storing = self._store.submit_feedback(proposal_id, body, kind=kind, refused=refused, had=had)
         opened: Proposal | None = None
         if ahead is not None and clicked is not None:
             async with self.turn:
@@ -200,6 +201,8 @@ class Desk:
         if opened is not None:
             self._show(opened)
         if kind == "person":
+            if submission.feedback.status is FeedbackStatus.OVERTAKEN:
+                self._seating.finished(body.trainer, proposal_id)
             self._seating.look(body.trainer, counts=submission.feedback.status is not FeedbackStatus.PRACTICE)
         self.wake()
         return submission
@@ -259,6 +262,8 @@ class Desk:
         """The robot moves by this one: tell of the others, which its approval has closed, and learn from them."""
         if self._open or self.judged:
             closed, labels = await self._store.superseded_by(approved.id)
+            # told first: whoever thinks about one of them may go on
+            self._seating.overtaken([p for p in closed if p.close_reason is CloseReason.SUPERSEDED])
             for proposal in closed:
                 self._gone(proposal.id)
                 self.judged = [each for each in self.judged if each.id != proposal.id]
@@ -303,6 +308,11 @@ class Desk:
     def _take(self, submission: Submission) -> None:
         feedback, closed = submission.feedback, submission.closed
         if submission.duplicate:
+            return
+        if feedback.status is FeedbackStatus.OVERTAKEN and submission.heard is not None:
+            self._ledger.note_closed(submission.heard, feedback.id, label_of(feedback.value))
+            self._publish(FeedbackStored(feedback=feedback, undoable=True))
+            self._crew.learn(submission.labels)
             return
         if feedback.status is not FeedbackStatus.STORED:
             if feedback.proposal_id not in self._open:  # what is said of an open one isn't told
@@ -383,18 +393,5 @@ class Desk:
         return max(0.0, min(self._since.values()) + limit - time.monotonic())
 
     async def _news_or_death(self, seconds: float | None) -> bool:
-        """Wait for news; False if there is none within so many seconds."""
-        waits = {
-            asyncio.ensure_future(self._news.wait()),
-            asyncio.ensure_future(self._robot.post.death()),
-            asyncio.ensure_future(self._crew.learner.death()),
-        }
-        try:
-            done, _ = await asyncio.wait(waits, timeout=seconds, return_when=asyncio.FIRST_COMPLETED)
-        finally:
-            for wait in waits:
-                wait.cancel()
-        for wait in done:
-            if isinstance(death := wait.result(), WorkerDied):
-                raise death
-        return bool(done)
+        robot, learner = self._robot.post.death(), self._crew.learner.death()
+        return await news_or_death(self._news, robot, learner, seconds=seconds)

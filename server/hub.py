@@ -88,14 +88,17 @@ class Hub:
             self.store.running_executions(experiment_id),
             self.store.undoable(experiment_id, trainer),
         )
+        seating = self.seats.of(experiment_id)
+        finishing = None if trainer is None else seating.finishing(trainer)
         return Snapshot(
             experiment=experiment,
             proposal=proposals[0] if proposals else None,
             proposals=proposals,
+            finishing=finishing,
             execution=executions[0] if executions else None,
             executions=executions,
             undoable=undoable,
-            judges=self.seats.of(experiment_id).judges,
+            judges=seating.judges,
             robots=[
                 RobotTold(robot=robot.index, telemetry=robot.telemetry)
                 for robot in (self._runners[experiment_id].crew.robots if experiment_id in self._runners else ())

@@ -66,6 +66,12 @@ class Ledger:
         """Remember a counted click until its proposal is closed."""
         self._votes[proposal.id].append(_Vote(feedback_id, proposal.predicted_feedback, label))
 
+    def note_closed(self, proposal: Proposal, feedback_id: int, label: int | None) -> None:
+        """Write down a label of a proposal that is closed already, soon."""
+        self.note(proposal, feedback_id, label)
+        self.release(proposal.id)
+        self.write()
+
     def release(self, proposal_id: int) -> None:
         """It is closed: what was said of it may be written down. A click that says nothing is no feedback."""
         for vote in self._votes.pop(proposal_id, ()):

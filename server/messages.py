@@ -49,6 +49,10 @@ class Snapshot(Event):
     experiment: Experiment
     proposal: Annotated[Proposal | None, Field(description="the oldest open proposal, if any")] = None
     proposals: Annotated[list[Proposal], Field(description="every open proposal, one a slot of a robot, oldest first")]
+    finishing: Annotated[
+        Proposal | None,
+        Field(description="what this trainer may still judge although it is closed: `Judge.finishing`"),
+    ] = None
     judges: Annotated[list[Judge], Field(description="who is there to judge, and at what")] = []  # noqa: RUF012
     execution: Annotated[Execution | None, Field(description="the oldest running execution, if any")] = None
     executions: Annotated[list[Execution], Field(description="every running execution, oldest first")]

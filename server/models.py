@@ -29,6 +29,11 @@ if TYPE_CHECKING:
     from server.models_tags import TagRow
 
 
+COUNTING = ("stored", "overtaken")
+"""Status of clicks that are feedback: counted, and learned from. Only those that are `stored` decide anything."""
+_COUNTS = text("status IN ('stored', 'overtaken') AND undone_at IS NULL")
+
+
 def _one_a_robot(name: str, where: str, *within: str) -> Index:
     """Of the rows that satisfy `where`, a robot has one at most; `within`: one for each value of these columns."""
     columns = ("experiment_id", "robot", *within)
@@ -211,14 +216,14 @@ class FeedbackRow(Base):
     __table_args__ = (
         UniqueConstraint("click_id"),
         CheckConstraint("value IN (-1, 0, 1)", name="value"),
-        one_of("status", "stored", "late", "practice"),
+        one_of("status", "stored", "overtaken", "late", "practice"),
         Index(
             "uq_feedback_one_vote",
             "proposal_id",
             "trainer_id",
             unique=True,
-            sqlite_where=text("status = 'stored' AND undone_at IS NULL"),
-            postgresql_where=text("status = 'stored' AND undone_at IS NULL"),
+            sqlite_where=_COUNTS,
+            postgresql_where=_COUNTS,
         ),
         Index("ix_feedback_experiment_id_id", "experiment_id", "id"),
     )

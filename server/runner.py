@@ -96,7 +96,7 @@ class Runner:
         seating.on_change = self._wake
         seating.on_arrived = lambda: self._soon(self._welcome())
         seating.on_vanished = lambda names: self._soon(self._do_without(names))
-        seating.follow(experiment.aggregation, experiment.together)
+        seating.follow(experiment.aggregation, experiment.together, going=False)
 
     # --- what the hub asks --------------------------------------------------------------------------------------
 
@@ -235,7 +235,9 @@ class Runner:
     def changed(self, experiment: Experiment) -> None:
         """Take over what is stored, unless something newer is known, and tell everyone."""
         self.standing.changed(experiment)
-        self.seating.follow(self.experiment.aggregation, self.experiment.together)
+        now = self.experiment
+        going = now.lifecycle is Lifecycle.RUNNING and not now.halted
+        self.seating.follow(now.aggregation, now.together, going=going)
         self._wake()
 
     def conclude(self, concluded: Sequence[Concluded]) -> None:

@@ -292,10 +292,12 @@ class FeedbackCreate(Wire):
 class FeedbackStatus(StrEnum):
     """What became of a click: it counted, it came after the proposal had closed, or its trainer has to practise first.
 
-    Those that don't count are kept, and decide and teach nothing.
+    `overtaken`: another proposal was approved while its trainer looked at this one. It is counted and trains as any
+    other, and decides nothing. Late ones and those of practice are kept, and decide and teach nothing.
     """
 
     STORED = "stored"
+    OVERTAKEN = "overtaken"
     LATE = "late"
     PRACTICE = "practice"
 
@@ -315,7 +317,7 @@ class Feedback(Wire):
     received_at: datetime
     undone_at: datetime | None = None
     estimate_shown: EstimateShown = None
-    late_because: Annotated[str | None, Field(description="why it didn't count, in words; told to its sender")] = None
+    late_because: Annotated[str | None, Field(description="why it decides nothing; told to its sender")] = None
 
 
 class FeedbackPage(Page):

@@ -35,6 +35,18 @@ VanishSeconds = Annotated[
 ]
 
 
+FinishSeconds = Annotated[
+    float,
+    Field(
+        ge=0,
+        le=600,
+        allow_inf_nan=False,
+        description="how long a trainer may still judge what they had before them when another proposal was approved:"
+        " it trains, and decides nothing",
+    ),
+]
+
+
 class Together(_Wire):
     """How several trainers share the proposals of one experiment."""
 
@@ -51,6 +63,7 @@ class Together(_Wire):
     ] = False
     lease_seconds: LeaseSeconds = 60.0
     vanish_seconds: VanishSeconds = 10.0
+    finish_seconds: FinishSeconds = 20.0
 
 
 class TogetherUpdate(_Wire):
@@ -60,16 +73,24 @@ class TogetherUpdate(_Wire):
     weighted_approves: StrictBool | None = None
     lease_seconds: LeaseSeconds | None = None
     vanish_seconds: VanishSeconds | None = None
+    finish_seconds: FinishSeconds | None = None
 
 
 class Judge(_Wire):
     """A trainer who is there, and what they have before them."""
 
     trainer: str
-    proposal_id: Annotated[int | None, Field(description="the open proposal that is theirs to judge")] = None
+    proposal_id: Annotated[int | None, Field(description="the proposal that is theirs to judge")] = None
     until: Annotated[datetime | None, Field(description="when it goes back, without a sign that they look at it")] = (
         None
     )
+    finishing: Annotated[
+        bool,
+        Field(
+            description="another proposal was approved while they looked at this one: what they say of it until then"
+            " trains, and decides nothing"
+        ),
+    ] = False
     here: Annotated[bool, Field(description="whether a page of theirs is connected")] = True
     away: Annotated[bool, Field(description="connected, but without a sign of life for longer than a lease")] = False
 

@@ -26,6 +26,8 @@ class Seat:
     connections: how many pages are open. left: since when none is; it stays None while one is.
     away: they had something before them and showed no sign of life for as long as a lease, or closed their pages.
     counts: whether their clicks do; who has to practise first gets no proposal.
+    finishing: what they may still judge until `finish_by`, although another's approval has closed it. finished: the
+    id of the newest one that they have.
     """
 
     looked: float
@@ -34,6 +36,9 @@ class Seat:
     proposal: int | None = None
     away: bool = False
     counts: bool = True
+    finishing: Proposal | None = None
+    finish_by: float = 0.0
+    finished: int | None = None
 
 
 class Seating:
@@ -68,8 +73,11 @@ class Seating:
         return sorted(name for name, seat in self._seats.items() if seat.counts)
 
     def wanted(self, standing: int) -> int:
-        """How many proposals of one robot are to be open, where so many robots stand still."""
-        busy = sum(seat.counts and not seat.away for seat in self._seats.values())
+        """How many proposals of one robot are to be open, where so many robots stand still.
+
+        Whoever finishes another one gets theirs once they have: it comes from what is learned until then.
+        """
+        busy = sum(s.counts and not s.away and s.finishing is None for s in self._seats.values())
         return assigning.wanted(busy, standing, parallel=self._together.parallel)
 
     def proposal_of(self, trainer: str) -> int | None:
@@ -92,10 +100,20 @@ class Seating:
         holder = next((name for name, seat in self._seats.items() if seat.proposal == proposal.id), None)
         return None if holder is None else f"it is before {holder} now, and waits for what they say of it"
 
+    def finishing(self, trainer: str) -> Proposal | None:
+        """The closed proposal that this trainer may still judge."""
+        seat = self._seats.get(trainer)
+        return None if seat is None else seat.finishing
+
     # --- what happens -------------------------------------------------------------------------------------------
 
-    def follow(self, rule: Aggregation, together: Together) -> None:
-        """Go by these settings from now on."""
+    def follow(self, rule: Aggregation, together: Together, *, going: bool = True) -> None:
+        """Go by these settings from now on. going: the experiment runs; else there is nothing to finish."""
+        if not going and any(seat.finishing is not None for seat in self._seats.values()):
+            for seat in self._seats.values():
+                if seat.finishing is not None:
+                    seat.finishing = seat.proposal = None
+            self._settle()
         if (rule, together) != (self._rule, self._together):
             self._rule, self._together = rule, together
             self._settle()
@@ -114,7 +132,9 @@ class Seating:
             return
         seat.connections -= 1
         if not seat.connections:
-            seat.left, seat.away, seat.proposal = self._clock(), True, None
+            seat.left = self._clock()
+            if seat.finishing is None:  # else it is nobody else's, and they may be back in a moment
+                seat.away, seat.proposal = True, None
             self._settle()
 
     def look(self, trainer: str, *, counts: bool = True) -> None:
@@ -127,12 +147,30 @@ class Seating:
             seat.left = self._clock()
         self._settle(arrived=arrived)
 
+    def overtaken(self, closed: Sequence[Proposal]) -> None:
+        """Another's approval has closed these: whoever has one before them may finish it."""
+        seconds = self._together.finish_seconds
+        by_id = {proposal.id: proposal for proposal in closed}
+        for name, seat in self._seats.items():
+            mine = by_id.get(seat.proposal or 0)
+            if mine is not None and seconds and seat.counts and seat.finished != mine.id and name not in mine.heard:
+                seat.finishing, seat.finish_by = mine, self._clock() + seconds
+        self._wind()
+        self._tell()
+
+    def finished(self, trainer: str, proposal_id: int) -> None:
+        """They have judged one that another's approval has closed."""
+        seat = self._seated(trainer)
+        seat.finished = proposal_id
+        if seat.proposal == proposal_id:
+            seat.finishing = seat.proposal = None
+
     def give(self, trainer: str, proposal_id: int) -> None:
         """Put a proposal before them that they have just opened again."""
         seat = self._seated(trainer)
         if not seat.connections and seat.left is None:
             seat.left = self._clock()
-        seat.looked, seat.away, seat.proposal = self._clock(), False, proposal_id
+        seat.looked, seat.away, seat.proposal, seat.finishing = self._clock(), False, proposal_id, None
         self._settle()
 
     def deal(self) -> None:
@@ -141,6 +179,9 @@ class Seating:
         exclusive = assigning.is_exclusive(self._rule, parallel=self._together.parallel)
         taken: set[int] = set()
         for name, seat in self._seats.items():
+            if seat.finishing is not None and seat.counts:
+                continue
+            seat.finishing = None
             mine = opened.get(seat.proposal) if seat.proposal is not None else None
             if (
                 mine is None
@@ -170,7 +211,7 @@ class Seating:
 
     def _due(self, seat: Seat) -> float:
         """When what they have goes back."""
-        return seat.looked + self._together.lease_seconds
+        return seat.looked + self._together.lease_seconds if seat.finishing is None else seat.finish_by
 
     def _settle(self, *, arrived: bool = False) -> None:
         if arrived:
@@ -193,8 +234,11 @@ class Seating:
         """Take back what nobody looks at, and let go of those who are gone."""
         now = self._clock()
         for seat in self._seats.values():
-            if seat.proposal is not None and self._due(seat) <= now:
-                seat.away, seat.proposal = True, None
+            if seat.proposal is None or self._due(seat) > now:
+                continue
+            # who let one go by that nothing waited for isn't away yet, unless they don't look at the next one either
+            seat.away = seat.finishing is None or (seat.left is not None and seat.connections == 0)
+            seat.proposal = seat.finishing = None
         gone = [
             name
             for name, seat in self._seats.items()
@@ -211,7 +255,14 @@ class Seating:
         if seat.proposal is not None:
             left = max(0.0, self._due(seat) - self._clock())
             until = datetime.now(UTC) + timedelta(seconds=round(left))
-        return Judge(trainer=name, proposal_id=seat.proposal, until=until, here=seat.left is None, away=seat.away)
+        return Judge(
+            trainer=name,
+            proposal_id=seat.proposal,
+            until=until,
+            finishing=seat.finishing is not None,
+            here=seat.left is None,
+            away=seat.away,
+        )
 
     def _tell(self) -> None:
         now = self.judges

@@ -53,7 +53,7 @@ class Seats:
         seating = self.of(experiment_id)
         seating.look(trainer, counts=counts)
         mine = seating.proposal_of(trainer)
-        proposal = next((proposal for proposal in seating.opened() if proposal.id == mine), None)
+        proposal = seating.finishing(trainer) or next((p for p in seating.opened() if p.id == mine), None)
         return Next(proposal=proposal, judge=next(judge for judge in seating.judges if judge.trainer == trainer))
 
     async def _counts(self, experiment_id: int, trainer: str) -> bool:

@@ -185,10 +185,16 @@ class Store(Reads):
         return await self._write(lambda s: wire.proposal(store_proposals.close_proposal(s, proposal_id, reason)))
 
     async def submit_feedback(
-        self, proposal_id: int, click: schemas.FeedbackCreate, *, kind: str = "person", refused: str | None = None
+        self,
+        proposal_id: int,
+        click: schemas.FeedbackCreate,
+        *,
+        kind: str = "person",
+        refused: str | None = None,
+        had: bool = False,
     ) -> Submission:
         """Store a click: counted, late, or known already. See `store_votes.submit`."""
-        return await self._write(lambda s: store_votes.submit(s, proposal_id, click, kind, refused))
+        return await self._write(lambda s: store_votes.submit(s, proposal_id, click, kind, refused, had=had))
 
     async def leave_electorates(self, experiment_id: int, names: Collection[str]) -> list[Concluded]:
         """Wait for these trainers no longer, on any open proposal. See `store_votes.leave`."""

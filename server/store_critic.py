@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from sqlalchemy import select
 from sqlalchemy.orm import Session
 
-from server.models import FeedbackRow, ProposalRow
+from server.models import COUNTING, FeedbackRow, ProposalRow
 from server.schemas_critic import NearbyLabel
 from server.store_proposals import load_proposal
 
@@ -29,7 +29,7 @@ def nearby(session: Session, proposal_id: int, skill: str) -> list[NearbyLabel]:
             ProposalRow.skill == skill,
             ProposalRow.purpose == "training",
             ProposalRow.closed_at.is_not(None),
-            FeedbackRow.status == "stored",
+            FeedbackRow.status.in_(COUNTING),
             FeedbackRow.undone_at.is_(None),
             value.is_not(None),
         )

@@ -14,7 +14,7 @@ from typing import Any
 from sqlalchemy import ColumnElement, Integer, case, cast, exists, extract, func, select
 from sqlalchemy.orm import Session
 
-from server.models import EvaluationRow, ExecutionRow, FeedbackRow, MetricRow, ProposalRow
+from server.models import COUNTING, EvaluationRow, ExecutionRow, FeedbackRow, MetricRow, ProposalRow
 from server.schemas_curves import Chart, Curve, Curves, Measure
 from server.store_experiments import load
 
@@ -160,7 +160,7 @@ def _labels(session: Session, experiment_id: int, points: int) -> list[Any]:
         .where(
             ProposalRow.purpose == "training",
             FeedbackRow.experiment_id == experiment_id,
-            FeedbackRow.status == "stored",
+            FeedbackRow.status.in_(COUNTING),
             FeedbackRow.undone_at.is_(None),
             value.is_not(None),
         )
@@ -242,7 +242,7 @@ def _throughput(session: Session, experiment_id: int, points: int) -> Chart:
     """Labels a minute while somebody labels."""
     row = FeedbackRow
     at = extract("epoch", row.received_at)
-    where = (row.experiment_id == experiment_id, row.status == "stored", row.undone_at.is_(None), _training())
+    where = (row.experiment_id == experiment_id, row.status.in_(COUNTING), row.undone_at.is_(None), _training())
     each = (
         select(
             func.row_number().over(order_by=row.id).label("n"),

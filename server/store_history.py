@@ -10,7 +10,7 @@ from sqlalchemy.orm import Session, selectinload
 
 from server import store_pages
 from server import store_wire as wire
-from server.models import EpisodeRow, ExecutionRow, FeedbackRow, ProposalRow
+from server.models import COUNTING, EpisodeRow, ExecutionRow, FeedbackRow, ProposalRow
 from server.models_incidents import ViolationRow
 from server.schemas_history import Episode, EpisodePage, HistoryEntry, HistoryFilter, HistoryPage
 from server.store_errors import NotFound
@@ -79,7 +79,7 @@ def _narrowed(wanted: HistoryFilter) -> list[ColumnElement[bool]]:
     if wanted.label is not None:
         value = FeedbackRow.label
         said = value.is_(None) if wanted.label == "cant_tell" else value == _VALUES[wanted.label]
-        counts = (FeedbackRow.status == "stored", FeedbackRow.undone_at.is_(None))
+        counts = (FeedbackRow.status.in_(COUNTING), FeedbackRow.undone_at.is_(None))
         found.append(select(FeedbackRow.id).where(FeedbackRow.proposal_id == row.id, *counts, said).exists())
     if wanted.executed is not None:
         ran = select(ExecutionRow.id).where(ExecutionRow.proposal_id == row.id).exists()

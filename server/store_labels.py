@@ -5,7 +5,7 @@ from __future__ import annotations
 from sqlalchemy import ColumnElement, func, or_, select
 from sqlalchemy.orm import Session
 
-from server.models import FeedbackRow, ObservationRow, ProposalRow, RelabelRow, TrainerRow
+from server.models import COUNTING, FeedbackRow, ObservationRow, ProposalRow, RelabelRow, TrainerRow
 from server.schemas_labels import RelabelCreate, label_of
 from server.store_closing import count
 from server.store_errors import Conflict, NotFound
@@ -22,6 +22,11 @@ def labels(session: Session, experiment_id: int, after_id: int = 0, limit: int |
 def labels_of(session: Session, proposal_id: int) -> list[StoredLabel]:
     """What the learner trains from this proposal."""
     return _labels(session, FeedbackRow.proposal_id == proposal_id)
+
+
+def labels_of_click(session: Session, feedback_id: int) -> list[StoredLabel]:
+    """What the learner trains from this click: one label at most."""
+    return _labels(session, FeedbackRow.id == feedback_id)
 
 
 def relabel(session: Session, feedback_id: int, body: RelabelCreate, *, anybodys: bool) -> Relabelled:
@@ -57,7 +62,7 @@ def relabel(session: Session, feedback_id: int, body: RelabelCreate, *, anybodys
     journal(
         session, row.experiment_id, "relabelled", feedback=row.id, proposal=row.proposal_id, before=before, by=by.name
     )
-    learned = _labels(session, FeedbackRow.id == feedback_id)
+    learned = labels_of_click(session, feedback_id)
     return Relabelled(
         feedback_wire(row), duplicate=False, before=before, after=value, label=learned[0] if learned else None
     )
@@ -78,7 +83,7 @@ def _must_be_correctable(row: FeedbackRow, proposal: ProposalRow, by: str, *, an
         raise Conflict(f"this click is {row.trainer.name}'s, not {by}'s", remedy="correct your own clicks")
     if proposal.purpose != "training":
         raise Conflict("an evaluation's approval is no label", remedy="judge the proposals of a running experiment")
-    if row.status != "stored":
+    if row.status not in COUNTING:
         why = "it came late" if row.status == "late" else "it was for practice"
         raise Conflict(f"this click counts for nothing: {why}", remedy="correct a click that counts")
     if row.undone_at is not None:
@@ -105,13 +110,13 @@ def _labels(session: Session, *where: ColumnElement[bool], limit: int | None = N
         .join(ObservationRow, ObservationRow.id == ProposalRow.observation_id)
         .where(
             *where,
-            FeedbackRow.status == "stored",
+            FeedbackRow.status.in_(COUNTING),
             FeedbackRow.undone_at.is_(None),
             value.is_not(None),
             ProposalRow.purpose == "training",
             ProposalRow.known_answer.is_(None),
             # a time-out trains nothing, whoever voted before it; where nobody could tell, a correction does
-            # and what was said of a proposal before another one was approved is as true as ever
+            # and what was said of a proposal before another one was approved, or just after, is as true as ever
             or_(ProposalRow.verdict.is_not(None), ProposalRow.close_reason.in_(("cant_tell", "superseded"))),
         )
         .order_by(FeedbackRow.id)

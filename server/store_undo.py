@@ -7,7 +7,7 @@ from collections.abc import Collection
 from sqlalchemy import or_, select
 from sqlalchemy.orm import Session
 
-from server.models import ExecutionRow, FeedbackRow, ProposalRow, TrainerRow
+from server.models import COUNTING, ExecutionRow, FeedbackRow, ProposalRow, TrainerRow
 from server.schemas import CloseReason
 from server.store_closing import close, count, reopen
 from server.store_errors import Conflict, NotFound
@@ -26,7 +26,7 @@ def newest_counted(session: Session, experiment_id: int, trainer: str | None = N
         .join(ProposalRow, ProposalRow.id == FeedbackRow.proposal_id)
         .where(
             FeedbackRow.experiment_id == experiment_id,
-            FeedbackRow.status == "stored",
+            FeedbackRow.status.in_(COUNTING),
             FeedbackRow.undone_at.is_(None),
             ProposalRow.purpose == "training",
         )
@@ -50,6 +50,8 @@ def why_not_undoable(session: Session, row: FeedbackRow) -> str | None:
         return f"it isn't the newest feedback of {row.trainer.name}"
     if experiment.halted or experiment.lifecycle != "running":
         return "the experiment is " + ("halted" if experiment.halted else experiment.lifecycle)
+    if row.status == "overtaken":  # nothing has come of it
+        return None
     judged = load_proposal(session, row.proposal_id)
     if judged.episode.ended_at is not None:
         return "its episode has ended"
@@ -96,7 +98,9 @@ def undo(session: Session, feedback_id: int, *, keep: Collection[int] = (), by: 
     judged = load_proposal(session, row.proposal_id)
     experiment = load(session, row.experiment_id)
     left = {name: value for name, value in votes(session, judged.id).items() if name != row.trainer.name}
-    decided = judged.verdict is not None and verdict_of(session, experiment, judged, left) == judged.verdict
+    decided = row.status == "overtaken" or (
+        judged.verdict is not None and verdict_of(session, experiment, judged, left) == judged.verdict
+    )
     withdrawn = None if decided else _make_room(session, judged, keep)
     if judged.closed_at is not None and decided:
         count(experiment, row.label, -1)

@@ -73,7 +73,7 @@ class StoredLabel:
 class Submission:
     """What became of a click. `closed` is the proposal if this very click closed it; `labels` train by that.
 
-    heard: the proposal, now that this vote is counted.
+    heard: the proposal, now that this vote is counted, or this label of a proposal that was overtaken.
     """
 
     feedback: Feedback

@@ -9,15 +9,15 @@ from sqlalchemy import Row, and_, bindparam, insert, select
 from sqlalchemy.orm import Session
 
 from server import aggregation, schemas, schemas_trust, store_experiments, store_practice, store_quality
-from server.models import ExperimentRow, FeedbackRow, ObservationRow, ProposalRow, TrainerRow
+from server.models import COUNTING, ExperimentRow, FeedbackRow, ObservationRow, ProposalRow, TrainerRow
 from server.models_base import table
 from server.schemas_labels import answer_of
 from server.schemas_together import Together
 from server.store_audit import record
-from server.store_closing import close
+from server.store_closing import close, count
 from server.store_errors import Conflict, NotFound
 from server.store_experiments import journal, load, now
-from server.store_labels import labels_of, trainer
+from server.store_labels import labels_of, labels_of_click, trainer
 from server.store_proposals import load_proposal
 from server.store_values import Concluded, Submission
 from server.store_wire import feedback as feedback_wire
@@ -34,6 +34,8 @@ _FOUND = (
         ProposalRow.policy_version,
         ObservationRow.uid,
         ExperimentRow.practice_required,
+        ExperimentRow.lifecycle,
+        ExperimentRow.halted,
         TrainerRow.id.label("trainer_id"),
         FeedbackRow.id.label("known"),
     )
@@ -54,11 +56,19 @@ _COUNT_LATE = (
 
 
 def submit(
-    session: Session, proposal_id: int, click: schemas.FeedbackCreate, kind: str, refused: str | None = None
+    session: Session,
+    proposal_id: int,
+    click: schemas.FeedbackCreate,
+    kind: str,
+    refused: str | None = None,
+    *,
+    had: bool = False,
 ) -> Submission:
     """Store a click; the one that completes a verdict closes the proposal with it, as does the last abstention.
 
     refused: why it can't count, in words, although the proposal may be open: it is kept as late.
+    had: its trainer has the proposal before them. Where another one's approval has closed it meanwhile, what they say
+        of it trains, and decides nothing.
 
     Raises:
         Conflict: the click id was used for something else, the proposal is an evaluation's, or this trainer has
@@ -75,6 +85,8 @@ def submit(
     experiment_id, required = found.experiment_id, found.practice_required
     counts = kind != "person" or store_practice.may_count(session, experiment_id, required, click.trainer)
     status = "practice" if not counts else "stored" if late_because is None else "late"
+    if status == "late" and had and _may_finish(session, proposal_id, found, click, by):
+        status = "overtaken"
     if status == "stored":
         proposal, experiment = _judged(session, proposal_id)
         cast = _must_have_vote(session, experiment, proposal, click.trainer)
@@ -82,9 +94,15 @@ def submit(
     record(session, "clicked", experiment_id, by=click.trainer, proposal=proposal_id, value=click.label, status=status)
     if status == "practice":
         return Submission(feedback, duplicate=False)
+    if status == "overtaken":
+        proposal, experiment = _judged(session, proposal_id)
+        count(experiment, click.label, 1)
+        experiment.updated_at = feedback.received_at
+        labels = labels_of_click(session, feedback.id)
+        return Submission(_why(feedback, late_because), duplicate=False, heard=_told(session, proposal), labels=labels)
     if status == "late":
         session.connection().execute(_COUNT_LATE, {"experiment": experiment_id, "at": feedback.received_at})
-        return Submission(_late(feedback, late_because), duplicate=False)
+        return Submission(_why(feedback, late_because), duplicate=False)
     cast[click.trainer] = click.label
     _conclude(session, experiment, proposal, cast)
     experiment.updated_at = now()
@@ -249,8 +267,8 @@ def _again(session: Session, proposal_id: int, click: schemas.FeedbackCreate, fo
         raise Conflict(
             f"click {click.click_id} was stored with another content", remedy="make a new click id for every click"
         )
-    late = known.status == schemas.FeedbackStatus.LATE
-    return Submission(_late(feedback_wire(known), _why_late(session, found, click, None) if late else None), True)
+    idle = known.status in ("late", "overtaken")
+    return Submission(_why(feedback_wire(known), _why_late(session, found, click, None) if idle else None), True)
 
 
 def _judged(session: Session, proposal_id: int) -> tuple[ProposalRow, ExperimentRow]:
@@ -262,7 +280,7 @@ def _judged(session: Session, proposal_id: int) -> tuple[ProposalRow, Experiment
     return session.execute(query).one()
 
 
-def _late(feedback: schemas.Feedback, why: str | None) -> schemas.Feedback:
+def _why(feedback: schemas.Feedback, why: str | None) -> schemas.Feedback:
     return feedback.model_copy(update={"late_because": why})
 
 
@@ -270,12 +288,29 @@ def _why_late(session: Session, found: Row[Any], click: schemas.FeedbackCreate, 
     """What keeps this click from counting, in words; None where it counts. found: by `_FOUND`."""
     if found.closed_at is not None:
         return _why_closed(session, found)
+    return _why_not_this(found, click) or refused
+
+
+def _why_not_this(found: Row[Any], click: schemas.FeedbackCreate) -> str | None:
+    """Why it isn't the proposal that its trainer saw; None where it is, or where they don't say what they saw."""
     looked = click.looked
     if looked is not None and looked.observation_id != found.uid:
         return "it was made for another view of the scene than the proposal is drawn on"
     if looked is not None and looked.policy_version != found.policy_version:
         return "it was made for a proposal of another policy"
-    return refused
+    return None
+
+
+def _may_finish(
+    session: Session, proposal_id: int, found: Row[Any], click: schemas.FeedbackCreate, trainer_id: int
+) -> bool:
+    """Whether what this trainer says of a proposal that another's approval has closed is learned from."""
+    if found.close_reason != schemas.CloseReason.SUPERSEDED or found.lifecycle != "running" or found.halted:
+        return False
+    row = FeedbackRow
+    said = select(row.id).where(row.proposal_id == proposal_id, row.trainer_id == trainer_id)
+    counts = said.where(row.status.in_(COUNTING), row.undone_at.is_(None))
+    return _why_not_this(found, click) is None and session.scalar(counts) is None
 
 
 def _why_closed(session: Session, found: Row[Any]) -> str:

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 
+from server.models import COUNTING
 from server.reliability import CORRECT, OTHER
 from server.schemas_quality import Estimate, Share, TrainerFigures
 
@@ -50,7 +51,7 @@ def figures(clicks: Sequence[Click], estimates: Mapping[int, Estimate], *, own: 
 
 
 def _figures(own: Sequence[Click], all_of: Mapping[int, Sequence[Click]], estimate: Estimate | None) -> TrainerFigures:
-    counted = [click for click in own if click.status == "stored"]
+    counted = [click for click in own if click.status in COUNTING]
     labels = [click.label for click in counted if click.label is not None]
     gold = [click.value == click.known_answer for click in own if click.known_answer is not None]
     told = gold[: len(gold) // TOLD_IN * TOLD_IN] if estimate is None else gold

@@ -39,7 +39,10 @@ async def give_feedback(
     proposal_id: Id,
     body: Annotated[FeedbackCreate, Body(openapi_examples=CLICK)],
 ) -> Feedback:
-    """One click. It is answered after it is stored; a late one is kept, decides nothing, and is answered 409."""
+    """One click. It is answered after it is stored; a late one is kept, decides nothing, and is answered 409.
+
+    One on a proposal that another's approval closed while its trainer had it before them is `overtaken`: it trains.
+    """
     feedback, duplicate = await service.hub.feedback(proposal_id, who.named(body))
     if feedback.status is FeedbackStatus.LATE:
         raise late_feedback(feedback)

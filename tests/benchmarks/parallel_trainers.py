@@ -1,11 +1,11 @@
 """What 2, 4 and 8 trainers who judge in parallel bring over one: feedback per minute, and feedback until 90 % succeed.
 
 Synthetic trainers on Stacking, each with a WebSocket to the real service on the kinematic adapter. They take as long as
-people for each proposal that they are given: log-normal, seeded, from anew where another's approval closes what they
-look at. Two kinds of judging are measured, because only a refusal leaves the robot where it is:
+people for each proposal that they are given: log-normal, seeded. Where another's approval closes what they look at they
+finish it, as the page lets people do. Two kinds of judging are measured, because only a refusal leaves the robot be:
 
 - `by the rule`: each says what the task's rule says, from an untrained policy on until `LABELS` labels are stored. An
-  approval moves the robot and ends the thinking of everybody else.
+  approval moves the robot.
 - `refusing`: each says bad, for `REFUSING_S` seconds: the search for a first good call.
 
 How many labels it takes until 90 of 100 evaluation episodes succeed is found afterwards, by a learner like the
@@ -65,6 +65,8 @@ class Room:
     stored: list[tuple[int, int, int, float]] = field(default_factory=list)
     """(feedback id, proposal id, value, when it was acknowledged) of what counts."""
     late: int = 0
+    overtaken: int = 0
+    """Labels of what another's approval had closed meanwhile: they train."""
     interrupted: int = 0
     """Proposals that were closed while their trainer thought about them."""
     waits: list[float] = field(default_factory=list)
@@ -79,9 +81,10 @@ class Room:
 
     def keep(self, feedback: Mapping[str, Any]) -> None:
         """Note what became of a click."""
-        if feedback["status"] != "stored":
+        if feedback["status"] not in ("stored", "overtaken"):
             self.late += 1
             return
+        self.overtaken += feedback["status"] == "overtaken"
         self.stored.append((feedback["id"], feedback["proposal_id"], feedback["value"], time.perf_counter()))
         if self.enough is not None and len(self.stored) >= self.enough:
             self.over.set()
@@ -184,7 +187,8 @@ def measure(service: LiveService, trainers: int, seed: int, *, refuse: bool) -> 
     assert [row[0] for row in stored] == [
         row["id"]
         for row in service.rows(
-            "SELECT id FROM feedback WHERE experiment_id = ? AND status = 'stored' ORDER BY id", experiment
+            "SELECT id FROM feedback WHERE experiment_id = ? AND status IN ('stored', 'overtaken') ORDER BY id",
+            experiment,
         )
     ][: len(stored)], "what was acknowledged isn't what is stored"
     window = REFUSING_S if refuse else stored[-1][3] - began
@@ -272,7 +276,7 @@ def _line(trainers: int, ratio: float, row: Sequence[Measured], *, refuse: bool)
         f"{'refusing' if refuse else 'by the rule'}, {trainers}: {a_minute:.0f} feedback a minute, "
         f"{ratio:.2f} times one ({ratio / trainers:.2f} of {trainers}); "
         f"click to next proposal {wait:.2f} s (median); {sum(each.room.interrupted for each in row)} interrupted, "
-        f"{sum(each.room.late for each in row)} late"
+        f"{sum(each.room.overtaken for each in row)} overtaken, {sum(each.room.late for each in row)} late"
     )
     if refuse:
         return told

@@ -139,9 +139,17 @@ def test_in_parallel_each_of_five_has_another_until_one_is_approved(gather: Gath
     assert [each.drawn() for each in team[1:]] == [first[name] for name in NAMES[1:]]
 
     bob.press(1)
-    for each in others:
+    expect(bob.activity).to_contain_text("Executing", timeout=START_MS)
+    for each, name in zip(others, NAMES[2:], strict=True):
         expect(each.notices).to_contain_text("bob approved another one first")
-        expect(each.activity).to_contain_text("Executing", timeout=START_MS)
+        expect(each.activity).to_contain_text("it still trains")
+        assert each.drawn() == first[name]  # the pictures stay
+    cyd = others[0]
+    cyd.press(1)
+    expect(cyd.notices).to_contain_text("Kept, and it trains. The robot is already moving for another proposal.")
+    expect(cyd.activity).to_contain_text("Executing")
+    (label,) = service.get(f"/proposals/{first['cyd']}/feedback")["items"]
+    assert (label["trainer"], label["value"], label["status"]) == ("cyd", 1, "overtaken")
     assert [each["proposal_id"] for each in executions(team)] == [first["bob"]]
     for name in NAMES[2:]:
         closed = service.get(f"/proposals/{first[name]}")

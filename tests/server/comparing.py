@@ -16,9 +16,9 @@ async def compare(store: Store, model: Experiment) -> None:
 async def _every_click_is_there_once_and_where_it_was_put(store: Store, model: Experiment) -> None:
     rows = (await store.feedback_of_experiment(model.id, limit=500)).items[::-1]
     stored = [
-        (r.id, r.click_id, r.proposal_id, r.trainer, r.value, r.status == "late", r.undone_at is not None) for r in rows
+        (r.id, r.click_id, r.proposal_id, r.trainer, r.value, r.status.value, r.undone_at is not None) for r in rows
     ]
-    assert stored == [(c.id, c.click_id, c.proposal.id, c.trainer, c.value, c.late, c.undone) for c in model.clicks]
+    assert stored == [(c.id, c.click_id, c.proposal.id, c.trainer, c.value, c.status, c.undone) for c in model.clicks]
     labels = await store.labels(model.id)
     assert [(label.feedback_id, label.value) for label in labels] == [
         (c.id, c.value) for c in model.clicks if c.counted and (c.proposal.verdict is not None or c.proposal.superseded)

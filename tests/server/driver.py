@@ -119,21 +119,26 @@ class Driver:
                 )
             )
 
-    def _click(self, proposal: Proposal, click_id: str, value: int, trainer: str) -> None:
+    def _click(self, proposal: Proposal, click_id: str, value: int, trainer: str, *, had: bool = False) -> None:
+        """had: they have it before them, also where another's approval has closed it."""
         model = proposal.experiment
-        late = not proposal.open
+        before = [c for c in model.clicks if c.proposal is proposal and c.trainer == trainer and c.counted]
+        overtaken = had and proposal.superseded and model.at_work and not before
+        late = not proposal.open and not overtaken
         asked = model.rule == "first" or not proposal.electorate or trainer in proposal.electorate
-        legal = late or (asked and trainer not in [vote.trainer for vote in model.votes(proposal)])
-        answer = self._expect(legal, self._store.submit_feedback(proposal.id, click(value, click_id, trainer)))
+        legal = not proposal.open or (asked and trainer not in [vote.trainer for vote in model.votes(proposal)])
+        answer = self._expect(legal, self._store.submit_feedback(proposal.id, click(value, click_id, trainer), had=had))
         if answer is None:
             return
-        self.seen["late click" if late else "click"] += 1
-        assert (answer.feedback.status is FeedbackStatus.LATE) == late
-        model.clicks.append(Click(answer.feedback.id, click_id, proposal, trainer, value, late))
-        if not late:
+        self.seen["late click" if late else "overtaken label" if overtaken else "click"] += 1
+        model.clicks.append(Click(answer.feedback.id, click_id, proposal, trainer, value, late, overtaken=overtaken))
+        assert answer.feedback.status.value == model.clicks[-1].status
+        if overtaken:
+            assert [label.feedback_id for label in answer.labels] == [answer.feedback.id]
+        elif not late:
             proposal.electorate = proposal.electorate or [trainer]
             self._conclude(proposal, "judged")
-        assert (answer.closed is not None) == (not late and not proposal.open)
+        assert (answer.closed is not None) == (answer.feedback.status is FeedbackStatus.STORED and not proposal.open)
 
     def _click_again(self, known: Click, data: st.DataObject) -> None:
         every = [proposal for model in self.experiments for proposal in model.proposals]
@@ -162,15 +167,25 @@ class Driver:
             bool(counted)
             and chosen is counted[-1]
             and model.at_work
-            and model.episode_open
-            and judged.episode == model.episode
-            and all(p.observation == judged.observation for p in since)
-            and all(e.born < judged.born for e in model.executions)
+            and (
+                chosen.overtaken
+                or (
+                    model.episode_open
+                    and judged.episode == model.episode
+                    and all(p.observation == judged.observation for p in since)
+                    and all(e.born < judged.born for e in model.executions)
+                )
+            )
         )
         undone = self._expect(legal, self._store.undo_feedback(chosen.id))
         if judged.execution is not None and model.at_work and chosen in counted[-1:]:
             self.seen["undo after a motion"] += 1
         if undone is None:
+            return
+        if chosen.overtaken:  # nothing has come of it
+            assert (undone.reopened.closed_at is not None, undone.withdrawn) == (True, None)
+            chosen.undone = True
+            self.seen["overtaken label undone"] += 1
             return
         left = [vote for vote in model.votes(judged) if vote is not chosen]
         still = judged.verdict is not None and verdict_of(model.rule, left, judged.electorate) == judged.verdict

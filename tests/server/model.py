@@ -23,6 +23,11 @@ class Click:
     value: int
     late: bool
     undone: bool = False
+    overtaken: bool = False
+
+    @property
+    def status(self) -> str:
+        return "late" if self.late else "overtaken" if self.overtaken else "stored"
 
     @property
     def counted(self) -> bool:
@@ -103,7 +108,7 @@ class Experiment:
         return len(opened), len(late)
 
     def votes(self, proposal: Proposal) -> list[Click]:
-        return [c for c in self.clicks if c.proposal is proposal and c.counted]
+        return [c for c in self.clicks if c.proposal is proposal and c.counted and not c.overtaken]
 
 
 def verdict_of(rule: str, votes: list[Click], electorate: list[str]) -> str | None:

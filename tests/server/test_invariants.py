@@ -113,6 +113,8 @@ class Machine(Driver, RuleBasedStateMachine):
             self._votes(proposal, 1, 1)
             self._votes(others[0], 1, 1)
             self._begin(proposal, current=True, inside=True)
+            self._click(others[1], self._new_id(), -1, TRAINERS[2], had=True)
+            self._click(others[0], self._new_id(), 1, TRAINERS[2], had=True)  # judged, and overtaken only then
         elif situation == "left":
             self._votes(proposal, 1, -1)
             self._leave(model, TRAINERS[2])
@@ -172,7 +174,8 @@ class Machine(Driver, RuleBasedStateMachine):
             )
         elif what == "click" and proposals:
             value, trainer = data.draw(st.sampled_from([1, 0, -1])), data.draw(st.sampled_from(TRAINERS))
-            self._click(data.draw(st.sampled_from(proposals[::-1])), self._new_id(), value, trainer)
+            had = data.draw(st.booleans())
+            self._click(data.draw(st.sampled_from(proposals[::-1])), self._new_id(), value, trainer, had=had)
         elif what == "time out" and proposals:
             self._time_out(data.draw(st.sampled_from(proposals[::-1])))
         elif what == "begin" and proposals:
@@ -193,7 +196,14 @@ def test_no_sequence_of_clicks_verbs_and_crashes_breaks_an_invariant() -> None:
         ),
     )
     happened = ("click", "late click", "same click again", "undone", "withdrawn", "moved", "crash while moving")
-    together = ("superseded", "approved too late", "left to a verdict", "verdict by a new rule", "undone beside")
+    together = (
+        "superseded",
+        "overtaken label",
+        "approved too late",
+        "left to a verdict",
+        "verdict by a new rule",
+        "undone beside",
+    )
     shut = (
         "undo after a motion",
         "the emergency stop is latched",

@@ -206,3 +206,41 @@ async def test_the_clock_rings_by_itself() -> None:
     seats.depart("ann")
     await asyncio.wait_for(gone.wait(), 30)
     assert seats.judges == []
+
+
+async def test_what_another_approval_overtook_stays_until_it_is_judged_or_its_time_is_over() -> None:
+    room = Room(Together(parallel=True, lease_seconds=60, vanish_seconds=30, finish_seconds=20))
+    room.opened = [proposal(1), proposal(2), proposal(3)]
+    for name in ALL:
+        room.seats.arrive(name)
+    overtaken, room.opened = room.opened[1:], [proposal(4)]
+    room.seats.overtaken(overtaken)
+    room.seats.deal()
+    assert room.at == {"ann": 4, "bob": 2, "cyd": 3}
+    assert room.seats.wanted(1) == 1  # who finishes needs nothing new yet
+    assert room.seats.finishing("bob") == overtaken[0]
+    room.seats.finished("bob", 2)
+    room.opened.append(proposal(5))
+    room.seats.look("bob")
+    assert room.at == {"ann": 4, "bob": 5, "cyd": 3}
+    # a page that is lost for a moment loses nothing
+    room.seats.depart("cyd")
+    room.seats.arrive("cyd")
+    assert room.seats.finishing("cyd") == overtaken[1]
+    room.opened.append(proposal(6))
+    room.later(20)
+    assert (room.at["cyd"], room.seats.finishing("cyd")) == (6, None)
+
+
+async def test_nothing_is_finished_once_the_experiment_stands_or_where_no_time_is_given() -> None:
+    for finish_seconds in (0.0, 20.0):
+        together = Together(parallel=True, finish_seconds=finish_seconds)
+        room = Room(together, opened=[proposal(1), proposal(2)])
+        room.seats.arrive("ann")
+        room.seats.arrive("bob")
+        overtaken, room.opened = room.opened[1:], []
+        room.seats.overtaken(overtaken)
+        room.seats.deal()
+        assert room.at == {"ann": None, "bob": 2 if finish_seconds else None}
+        room.seats.follow(FIRST, together, going=False)
+        assert room.at == {"ann": None, "bob": None}

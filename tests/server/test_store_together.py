@@ -17,6 +17,7 @@ from server.schemas import (
     Proposal,
     Verdict,
 )
+from server.schemas_labels import RelabelCreate
 from server.schemas_together import Looked, TogetherUpdate
 from server.store import Conflict, Store
 from server.store_experiments import now
@@ -75,6 +76,56 @@ async def test_the_first_that_is_approved_closes_the_others_whose_votes_still_tr
         assert not decision.allowed
         assert none is None
     assert (await store.experiment(experiment_id)).counters.executions == 1
+
+
+async def test_who_looked_at_what_is_overtaken_may_finish_and_that_trains_and_moves_nothing(store: Store) -> None:
+    experiment_id = await running(store, aggregation="first")
+    first, second, third = await beside(store, experiment_id)
+    await voted(store, second, ann=1)
+    _, execution = await begun(store, second.id)
+    looked = Looked(observation_id=first.observation_id, policy_version=first.policy_version)
+    said = await store.submit_feedback(
+        first.id, click(1, "click-of-bob", "bob").model_copy(update={"looked": looked}), had=True
+    )
+    assert (said.feedback.status, said.closed) == (FeedbackStatus.OVERTAKEN, None)
+    assert said.feedback.late_because == f"another proposal, number {second.number}, was approved first"
+    assert [(label.feedback_id, label.value) for label in said.labels] == [(said.feedback.id, 1)]
+    # the same click again is the same answer, another one is late, and so is whoever didn't look
+    again = await store.submit_feedback(
+        first.id, click(1, "click-of-bob", "bob").model_copy(update={"looked": looked}), had=True
+    )
+    assert (again.duplicate, again.feedback) == (True, said.feedback)
+    stale = Looked(observation_id="o0", policy_version=first.policy_version)
+    for late, trainer, seen, had in (
+        (first, "bob", looked, True),
+        (third, "cyd", None, False),
+        (third, "cyd", stale, True),
+    ):
+        kept = await store.submit_feedback(
+            late.id, click(1, trainer=trainer).model_copy(update={"looked": seen}), had=had
+        )
+        assert kept.feedback.status is FeedbackStatus.LATE
+    counters = (await store.experiment(experiment_id)).counters
+    assert (counters.feedback, counters.good, counters.late, counters.executions) == (2, 2, 3, 1)
+    proposal = await store.proposal(first.id)
+    assert (proposal.verdict, proposal.heard, proposal.close_reason) == (None, [], CloseReason.SUPERSEDED)
+    await ended(store, execution)
+    for other in (first, third):
+        assert (await begun(store, other.id))[1] is None
+    # it is corrected and taken back as any label; the proposal stays closed
+    corrected = await store.relabel(
+        said.feedback.id, RelabelCreate(click_id="correction-1", value=-1, trainer="bob"), anybodys=False
+    )
+    assert corrected.label is not None
+    assert [label.value for label in await store.labels(experiment_id)] == [1, -1]
+    undone = await store.undo_feedback(said.feedback.id, by="bob")
+    assert (undone.reopened.closed_at is not None, undone.withdrawn) == (True, None)
+    assert [label.value for label in await store.labels(experiment_id)] == [1]
+    assert (await store.experiment(experiment_id)).counters.feedback == 1
+    # a stop ends it
+    await store.halt(experiment_id)
+    kept = await store.submit_feedback(third.id, click(1, trainer="cyd"), had=True)
+    assert kept.feedback.status is FeedbackStatus.LATE
 
 
 async def test_two_approvals_race_to_the_gate_and_one_moves(store: Store) -> None:

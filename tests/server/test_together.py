@@ -96,16 +96,23 @@ async def test_in_parallel_each_has_another_and_the_first_approved_closes_the_ot
         for name in ("ann", "bob", "dan"):
             told = await told_closed(s, second[name])
             assert (told.close_reason, told.superseded_by) == (CloseReason.SUPERSEDED, second["cyd"].id)
-        late = await say(s, "bob", second["bob"], 1)
-        assert late.status is FeedbackStatus.LATE
-        assert late.late_because == f"another proposal, number {second['cyd'].number}, was approved first"
+        # who thought about another one may finish: it trains, and moves nothing
+        finishing = {j.trainer: j.proposal_id for j in s.hub.seats.of(experiment.id).judges if j.finishing}
+        assert finishing == {name: second[name].id for name in ("ann", "bob", "dan")}
+        finished = await say(s, "bob", second["bob"], 1)
+        why = f"another proposal, number {second['cyd'].number}, was approved first"
+        assert (finished.status, finished.late_because) == (FeedbackStatus.OVERTAKEN, why)
+        assert (await say(s, "bob", second["dan"], 1)).status is FeedbackStatus.LATE  # it wasn't before bob
         assert await s.store.open_proposals(experiment.id) == []
 
         await s.hub.act(experiment.id, "halt")
         await s.hub.idle(experiment.id)
         counters = (await s.hub.view(experiment.id)).counters
-        assert (counters.feedback, counters.late, counters.executions) == (2, 2, 1)
-        assert [label.value for label in await s.store.labels(experiment.id)] == [-1, 1]
+        assert (counters.feedback, counters.late, counters.executions) == (3, 2, 1)
+        assert [label.value for label in await s.store.labels(experiment.id)] == [-1, 1, 1]
+        # nothing is to be finished after a stop
+        assert not any(judge.finishing for judge in s.hub.seats.of(experiment.id).judges)
+        assert (await say(s, "ann", second["ann"], 1)).status is FeedbackStatus.LATE
 
 
 async def test_who_leaves_or_says_nothing_leaves_theirs_to_the_others(tmp_path: Path) -> None:

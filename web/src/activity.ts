@@ -2,8 +2,8 @@
 import { skillName, t } from "./i18n";
 import { ME, may } from "./me";
 import { isOpen } from "./robots";
-import { chosenFor, pendingFor } from "./selectors";
-import { type TrainerState, wordFor } from "./state";
+import { chosenFor, pendingFor, wordFor } from "./selectors";
+import type { TrainerState } from "./state";
 
 export interface Activity {
   tone: "you" | "moving" | "busy" | "still" | "stopped";
@@ -46,6 +46,8 @@ export function activity(state: TrainerState, drawn: boolean): Activity {
 
 function running(state: TrainerState, drawn: boolean): Activity {
   const { execution, proposal, experiment } = state;
+  if (state.finishing && proposal && chosenFor(state, proposal.id) === null)
+    return { tone: "you", text: t("activity.finishIt") };
   if (execution) {
     const critic = proposal?.id === execution.proposal_id && proposal.verdict_source === "critic";
     const skill = skillName(execution.skill);

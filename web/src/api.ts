@@ -615,6 +615,8 @@ export interface paths {
         /**
          * Give Feedback
          * @description One click. It is answered after it is stored; a late one is kept, decides nothing, and is answered 409.
+         *
+         *     One on a proposal that another's approval closed while its trainer had it before them is `overtaken`: it trains.
          */
         post: operations["give_feedback"];
         delete?: never;
@@ -3143,7 +3145,8 @@ export interface components {
              *       "parallel": false,
              *       "weighted_approves": false,
              *       "lease_seconds": 60,
-             *       "vanish_seconds": 10
+             *       "vanish_seconds": 10,
+             *       "finish_seconds": 20
              *     }
              */
             together: components["schemas"]["Together"];
@@ -3282,7 +3285,8 @@ export interface components {
              *       "parallel": false,
              *       "weighted_approves": false,
              *       "lease_seconds": 60,
-             *       "vanish_seconds": 10
+             *       "vanish_seconds": 10,
+             *       "finish_seconds": 20
              *     }
              */
             together: components["schemas"]["Together"];
@@ -3372,7 +3376,7 @@ export interface components {
             estimate_shown: boolean | null;
             /**
              * Late Because
-             * @description why it didn't count, in words; told to its sender
+             * @description why it decides nothing; told to its sender
              */
             late_because: string | null;
         };
@@ -3435,10 +3439,11 @@ export interface components {
          * FeedbackStatus
          * @description What became of a click: it counted, it came after the proposal had closed, or its trainer has to practise first.
          *
-         *     Those that don't count are kept, and decide and teach nothing.
+         *     `overtaken`: another proposal was approved while its trainer looked at this one. It is counted and trains as any
+         *     other, and decides nothing. Late ones and those of practice are kept, and decide and teach nothing.
          * @enum {string}
          */
-        FeedbackStatus: "stored" | "late" | "practice";
+        FeedbackStatus: "stored" | "overtaken" | "late" | "practice";
         /**
          * FeedbackStored
          * @description A click is committed, and its proposal closed by it. `undoable` says whether it can still be undone.
@@ -3979,7 +3984,7 @@ export interface components {
             trainer: string;
             /**
              * Proposal Id
-             * @description the open proposal that is theirs to judge
+             * @description the proposal that is theirs to judge
              */
             proposal_id: number | null;
             /**
@@ -3987,6 +3992,12 @@ export interface components {
              * @description when it goes back, without a sign that they look at it
              */
             until: string | null;
+            /**
+             * Finishing
+             * @description another proposal was approved while they looked at this one: what they say of it until then trains, and decides nothing
+             * @default false
+             */
+            finishing: boolean;
             /**
              * Here
              * @description whether a page of theirs is connected
@@ -5144,6 +5155,8 @@ export interface components {
              * @description every open proposal, one a slot of a robot, oldest first
              */
             proposals: components["schemas"]["Proposal"][];
+            /** @description what this trainer may still judge although it is closed: `Judge.finishing` */
+            finishing: components["schemas"]["Proposal"] | null;
             /**
              * Judges
              * @description who is there to judge, and at what
@@ -5566,6 +5579,12 @@ export interface components {
              * @default 10
              */
             vanish_seconds: number;
+            /**
+             * Finish Seconds
+             * @description how long a trainer may still judge what they had before them when another proposal was approved: it trains, and decides nothing
+             * @default 20
+             */
+            finish_seconds: number;
         };
         /**
          * TogetherUpdate
@@ -5580,6 +5599,8 @@ export interface components {
             lease_seconds: number | null;
             /** Vanish Seconds */
             vanish_seconds: number | null;
+            /** Finish Seconds */
+            finish_seconds: number | null;
         };
         /**
          * TokenCreate

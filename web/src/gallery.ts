@@ -1,5 +1,6 @@
 // What the gallery shows, as its address says it; and what a proposal's label adds up to in one word.
 import { labelKey } from "./components/History";
+import { counts } from "./history";
 import type { HistoryEntry } from "./wire";
 
 export const CHOICES = {
@@ -24,7 +25,7 @@ export function narrowedIn(search: string): URLSearchParams {
 /** What was said of it by now, by whoever clicked last and counts; nobody judges an evaluation's proposals. */
 export function labelOf({ proposal, feedback }: HistoryEntry): ReturnType<typeof labelKey> {
   if (proposal.purpose === "evaluation") return "none";
-  const counted = feedback.filter((each) => each.status === "stored" && !each.undone_at);
+  const counted = feedback.filter(counts);
   return labelKey(counted.at(-1)?.label);
 }
 

@@ -24,6 +24,11 @@ const PASSES: Record<Filter, (entry: Entry) => boolean> = {
   violation: ({ execution }) => (execution?.violations.length ?? 0) > 0,
 };
 
+/** Whether it is learned from: it wasn't taken back, and came in time, or while its trainer could finish. */
+export function counts({ undone_at, status }: Feedback): boolean {
+  return !undone_at && (status === "stored" || status === "overtaken");
+}
+
 /** A robot's newest motion that has ended. */
 export function lastMotion(history: History, robot: number): Entry | null {
   return history.find(({ execution }) => execution?.robot === robot && execution.outcome !== null) ?? null;
@@ -40,9 +45,7 @@ export function loaded(
   me: string,
 ): History {
   const own = new Map(
-    feedback
-      .filter((each) => each.trainer === me && !each.undone_at && each.status === "stored")
-      .map((each) => [each.proposal_id, each]),
+    feedback.filter((each) => each.trainer === me && counts(each)).map((each) => [each.proposal_id, each]),
   );
   const ran = new Map(executions.map((each) => [each.proposal_id, each]));
   const known = new Map(history.map((entry) => [entry.proposal.id, entry]));
@@ -97,8 +100,7 @@ function withProposal(history: History, proposal: Proposal): History {
 
 /** One that was taken back, or came too late, is none. */
 export function withOwn(history: History, feedback: Feedback): History {
-  const counts = !feedback.undone_at && feedback.status === "stored";
-  return with_(history, feedback.proposal_id, { own: counts ? feedback : null });
+  return with_(history, feedback.proposal_id, { own: counts(feedback) ? feedback : null });
 }
 
 export function withExecution(history: History, execution: Execution): History {

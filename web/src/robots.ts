@@ -10,9 +10,11 @@ export interface RobotState {
   live: number | null;
   /** What its proposal is to this page's trainer: theirs before all others', theirs as well, or nothing. */
   asks: "first" | "too" | "no";
+  /** The closed form of `proposal`, which this page's trainer may finish although another's approval has closed it. */
+  finishing: Proposal | null;
 }
 
-export const STILL: RobotState = { proposal: null, execution: null, live: null, asks: "no" };
+export const STILL: RobotState = { proposal: null, execution: null, live: null, asks: "no", finishing: null };
 
 export function isOpen(proposal: Proposal): boolean {
   return !proposal.closed_at;

@@ -1,4 +1,5 @@
 // What the page asks of its state. Pure.
+import { t } from "./i18n";
 import { isOpen } from "./robots";
 import type { TrainerState } from "./state";
 import type { Experiment, Value } from "./wire";
@@ -42,4 +43,9 @@ export function canStillUndo(experiment: Experiment | null): boolean {
   if (experiment?.lifecycle !== "running" || experiment.halted) return false;
   if (experiment.num_envs > 1) return true; // the phase says nothing of a single robot
   return experiment.phase !== "starting" && experiment.phase !== "observing";
+}
+
+export function wordFor(value: Value): string {
+  if (value === "cant_tell") return t("judge.word.cantTell");
+  return t(value > 0 ? "judge.word.good" : value < 0 ? "judge.word.bad" : "judge.word.neutral");
 }

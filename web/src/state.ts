@@ -7,9 +7,9 @@ import { inOneLine, said } from "./i18n/said";
 import { ME } from "./me";
 import type { Click } from "./outbox";
 import { isOpen, type Judged, type RobotState, STILL, saying, shownRobot } from "./robots";
-import { canStillUndo } from "./selectors";
+import { canStillUndo, wordFor } from "./selectors";
 import type { Connection } from "./stream";
-import { overtaken, showing } from "./together";
+import { mayFinish, overtaken, showing } from "./together";
 import type {
   Evaluation,
   Execution,
@@ -20,7 +20,6 @@ import type {
   Problem,
   Proposal,
   StreamEvent,
-  Value,
 } from "./wire";
 
 export interface Notice {
@@ -48,6 +47,7 @@ export interface TrainerState {
   execution: Execution | null;
   live: number | null;
   asks: RobotState["asks"];
+  finishing: RobotState["finishing"];
   undoable: Feedback | null;
   /** The robot whose motion ends that; null: any may. */
   undoableOn: number | null;
@@ -100,6 +100,7 @@ export const initial: TrainerState = {
   execution: null,
   live: null,
   asks: "no",
+  finishing: null,
   undoable: null,
   undoableOn: null,
   pending: [],
@@ -121,7 +122,9 @@ export function reduce(state: TrainerState, action: Action): TrainerState {
   const { opened, judges, experiment } = changed;
   const next = { ...changed, robots: showing(changed.robots, opened, judges, experiment) };
   const shown = shownRobot(next.robots, next.chosen, next.shown, !next.experiment?.teacher, next.judged);
-  return { ...next, shown, ...(next.robots[shown] ?? STILL) };
+  const robot = next.robots[shown] ?? STILL;
+  // The video of another one's motion must not cover what is still to be judged.
+  return { ...next, shown, ...robot, live: robot.finishing ? null : robot.live };
 }
 
 function step(state: TrainerState, action: Action): TrainerState {
@@ -239,7 +242,9 @@ function onSnapshot(state: TrainerState, event: SnapshotEvent): TrainerState {
     const execution = event.executions.find((each) => each.robot === robot) ?? null;
     const closed: Proposal | null =
       last && isOpen(last) ? { ...last, closed_at: event.server_time, close_reason: "interrupted" } : last;
-    return { ...STILL, proposal: closed, execution, live: execution?.id ?? live };
+    const finishing = event.finishing?.robot === robot ? event.finishing : null;
+    const proposal = finishing ? { ...finishing, closed_at: null, close_reason: null } : closed;
+    return { ...STILL, proposal, finishing, execution, live: execution?.id ?? live };
   });
   const next: TrainerState = {
     ...state,
@@ -306,6 +311,7 @@ function withClosed(before: TrainerState, proposal: Proposal): TrainerState {
   const { robot, close_reason: reason } = proposal;
   const state = { ...before, opened: before.opened.filter(({ id }) => id !== proposal.id) };
   if (proposal.id !== state.robots[robot]?.proposal?.id) return state;
+  if (mayFinish(proposal, state.judges)) return withRobot(state, robot, { finishing: proposal });
   const dropped = reason === "withdrawn" || reason === "interrupted";
   return withRobot(dropped ? endUndo(state, robot) : state, robot, { proposal });
 }
@@ -313,7 +319,8 @@ function withClosed(before: TrainerState, proposal: Proposal): TrainerState {
 /** Somebody's approval of another proposal has closed this one: nobody's look or click is just gone. */
 function withOvertaken(state: TrainerState, proposal: Proposal): TrainerState {
   const approved = state.history.find((entry) => entry.proposal.id === proposal.superseded_by)?.proposal;
-  const seen = state.robots[proposal.robot]?.proposal?.id === proposal.id;
+  const here = state.robots[proposal.robot]?.proposal?.id === proposal.id;
+  const seen = !here ? "no" : mayFinish(proposal, state.judges) ? "finishing" : "seen";
   const text = overtaken(proposal, approved ?? null, state.judged[proposal.id], seen);
   return text === null ? state : withNotice(state, "info", text);
 }
@@ -355,6 +362,7 @@ function onAcknowledged(state: TrainerState, requestId: string, feedback: Feedba
   // Nobody was told that this click closed anything: others are still asked, and it can be taken back.
   if (feedback?.status === "stored" && click && pending !== state.pending && canStillUndo(state.experiment))
     return withUndoable(next, feedback);
+  if (feedback?.status === "overtaken" && click) return withNotice(next, "info", t("notice.overtaken"));
   if (feedback?.status !== "late") return next;
   const late = t("notice.late", { word: wordFor(feedback.value) });
   const because = feedback.late_because && said(feedback.late_because);
@@ -389,9 +397,4 @@ function without(clicks: Click[], clickId: string): Click[] {
   return clicks.some((click) => click.click_id === clickId)
     ? clicks.filter((click) => click.click_id !== clickId)
     : clicks;
-}
-
-export function wordFor(value: Value): string {
-  if (value === "cant_tell") return t("judge.word.cantTell");
-  return t(value > 0 ? "judge.word.good" : value < 0 ? "judge.word.bad" : "judge.word.neutral");
 }

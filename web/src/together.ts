@@ -42,7 +42,11 @@ export function showing(
   judges: Judge[],
   experiment: Experiment | null,
 ): RobotState[] {
-  return robots.map((before, robot) => {
+  const me = judgeOf(judges);
+  return robots.map((was, robot) => {
+    if (was.finishing && me?.finishing && me.proposal_id === was.finishing.id)
+      return was.asks === "first" ? was : { ...was, asks: "first" };
+    const before = was.finishing ? { ...was, proposal: was.finishing, finishing: null } : was;
     const open = opened.filter((each) => each.robot === robot);
     const picked = pick(open, before.proposal, experiment, judges);
     const mine = picked !== null && judgeOf(judges)?.proposal_id === picked.id;
@@ -64,16 +68,24 @@ export function missing(proposal: Proposal): string[] {
   return proposal.electorate.filter((name) => !proposal.heard.includes(name));
 }
 
+/** Whether this trainer may still say what they think of a proposal that another one's approval has closed. */
+export function mayFinish(proposal: Proposal, judges: Judge[]): boolean {
+  const me = judgeOf(judges);
+  return (me?.finishing ?? false) && me?.proposal_id === proposal.id;
+}
+
 /** What to say of a proposal that another one's approval has closed; null: nothing that this trainer doesn't know. */
 export function overtaken(
   proposal: Proposal,
   approved: Proposal | null,
   said: Value | undefined,
-  seen: boolean,
+  seen: "no" | "seen" | "finishing",
 ): string | null {
   if (proposal.close_reason !== "superseded" || approved?.heard.includes(ME)) return null;
   const who = approved?.heard.length ? listed(approved.heard) : t("together.somebody");
   if (said !== undefined && said !== "cant_tell")
     return t("together.stillTrains", { who, number: proposal.number });
-  return seen ? t("together.overtaken", { who }) : null;
+  if (seen === "no") return null;
+  const overtaken = t("together.overtaken", { who });
+  return seen === "finishing" ? `${overtaken} ${t("together.finishIt")}` : overtaken;
 }

@@ -16,6 +16,7 @@ const judge = (trainer: string, proposal_id: number | null, away = false): Judge
   proposal_id,
   until: null,
   here: true,
+  finishing: false,
   away,
 });
 const judges = (...all: Judge[]): StreamEvent => ({ type: "judges_changed", judges: all });
@@ -76,6 +77,32 @@ describe("each a proposal of their own", () => {
     );
     expect(said.notices.at(-1)?.text).toContain("closed by the approval of ann");
     expect(said.notices.at(-1)?.text).toContain("still trains");
+  });
+
+  it("keeps what this trainer thinks about on the screen until it is judged or its time is over", () => {
+    const approved = { ...hers, heard: ["ann"], closed_at: AT, close_reason: "judged" as const };
+    const at = [judge("ann", null), { ...judge("local", 2), finishing: true }];
+    const begun_ = next(
+      begun,
+      { type: "proposal_closed", proposal: { ...approved, verdict: "good" } },
+      judges(...at),
+      closed(mine, { close_reason: "superseded", superseded_by: 1 }),
+      { type: "execution_started", execution: execution(1) },
+    );
+    expect([begun_.proposal?.id, begun_.live, judgeable(begun_, 2)]).toEqual([2, null, true]);
+    expect(activity(begun_, true).text).toContain("it still trains");
+    expect(begun_.notices.at(-1)?.text).toContain("You may still judge yours");
+    const over = next(begun_, judges(judge("local", null)));
+    expect([over.proposal?.closed_at, over.live, judgeable(over, 2)]).toEqual([AT, 1, false]);
+    const told = next(begun_, {
+      type: "acknowledged",
+      request_id: "click-2",
+      feedback: feedback(2, { value: 1, status: "overtaken" }),
+    });
+    expect(told.notices.at(-1)?.text).toContain("Kept, and it trains");
+    expect(judgeable(told, 2)).toBe(false);
+    const back = next(begun, snapshot({ proposals: [], finishing: { ...mine, closed_at: AT }, judges: at }));
+    expect([back.proposal?.id, judgeable(back, 2)]).toEqual([2, true]);
   });
 
   it("leaves the approver alone with that", () => {

@@ -13,6 +13,7 @@ import { Choice } from "./Field";
 export const RULES: Aggregation[] = ["first", "majority", "unanimous", "weighted"];
 const LEASES = [15, 30, 60, 120, 300];
 const VANISHING = [0, 5, 10, 30, 60];
+const FINISHING = [0, 10, 20, 60];
 const REFRESH_MS = 5000; // as often as trainers are measured anew
 
 /** Those on offer, and the one that is set by other means. */
@@ -24,6 +25,7 @@ function seconds(offered: number[], now: number): { value: string; label: string
 
 function at(judge: Judge, opened: Proposal[]): string {
   if (judge.away) return t("together.isAway");
+  if (judge.finishing) return t("together.isFinishing");
   const number = opened.find(({ id }) => id === judge.proposal_id)?.number;
   return number === undefined ? t("together.isWaiting") : t("together.isAt", { number });
 }
@@ -119,6 +121,15 @@ export function TogetherPanel({ experiment, judges, opened, session, onAsk }: To
           options={seconds(VANISHING, together.vanish_seconds)}
           onChange={(value) => set({ together: { vanish_seconds: Number(value) } })}
         />
+        {together.parallel && (
+          <Choice
+            label={t("together.finish")}
+            name="finish_seconds"
+            value={String(together.finish_seconds)}
+            options={seconds(FINISHING, together.finish_seconds)}
+            onChange={(value) => set({ together: { finish_seconds: Number(value) } })}
+          />
+        )}
         {aggregation === "weighted" && (
           <label className="check wide">
             <input

@@ -32,8 +32,8 @@ export function votesIn(proposal: Proposal, experiment: Experiment, judges: Judg
   if (experiment.aggregation === "first") {
     if (others === 0) return null;
     if (!experiment.together.parallel) return t("together.firstDecides", { count: others });
-    const mine = judgeOf(judges)?.proposal_id === proposal.id;
-    return mine ? t("together.yours", { count: others }) : null;
+    const me = judgeOf(judges);
+    return me?.proposal_id === proposal.id && !me.finishing ? t("together.yours", { count: others }) : null;
   }
   const alone = electorate.length === 0 || (electorate.length === 1 && electorate[0] === ME);
   if (alone && others === 0) return null;
@@ -51,7 +51,7 @@ function useLease({ experiment, judges, leaseLeft }: VotesProps): "fresh" | "end
   const [soon, setSoon] = useState(false);
   const { parallel, lease_seconds: lease } = experiment.together;
   const me = judgeOf(judges);
-  const watched = parallel && me !== null && me.proposal_id !== null && judges.length > 1;
+  const watched = parallel && me !== null && me.proposal_id !== null && !me.finishing && judges.length > 1;
   useEffect(() => {
     if (!watched) return;
     const check = () => setSoon(leaseLeft() <= Math.min(TOLD, lease / 3));

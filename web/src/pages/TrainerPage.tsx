@@ -134,8 +134,8 @@ export function TrainerPage({ id }: { id: number }) {
               accepting={accepting}
               robot={state.shown}
               live={live}
-              moving={state.execution !== null}
-              skill={state.execution?.skill ?? (overlay ? drawn.skill : null)}
+              moving={state.execution !== null && state.finishing === null}
+              skill={overlay ? drawn.skill : (state.execution?.skill ?? null)}
               empty={experiment?.lifecycle === "created" ? t("camera.start") : now.text}
             />
             <div className="dock">
