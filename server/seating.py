@@ -49,7 +49,7 @@ class Seating:
         self._clock = clock
         self._seats: dict[str, Seat] = {}
         self._timer: asyncio.TimerHandle | None = None
-        self._told: list[Judge] = []
+        self._told: dict[str, tuple[int | None, bool, bool]] = {}
         self._rule, self._together = Aggregation.FIRST, Together()
         self.opened: Callable[[], Sequence[Proposal]] = list
         """The open proposals of all robots."""
@@ -265,12 +265,8 @@ class Seating:
         )
 
     def _tell(self) -> None:
-        now = self.judges
-        if _facts(now) != _facts(self._told):
+        # without the times, which change with every look
+        now = {name: (seat.proposal, seat.left is None, seat.away) for name, seat in self._seats.items()}
+        if now != self._told:
             self._told = now
-            self._publish(JudgesChanged(judges=now))
-
-
-def _facts(judges: Sequence[Judge]) -> list[Judge]:
-    """Without the times, which change with every look."""
-    return [judge.model_copy(update={"until": None}) for judge in judges]
+            self._publish(JudgesChanged(judges=self.judges))

@@ -8,12 +8,15 @@ from __future__ import annotations
 
 from datetime import UTC, datetime
 
-from sqlalchemy import select
+from sqlalchemy import bindparam, select
 from sqlalchemy.orm import Session
 
 from server.models import ExperimentRow, FeedbackRow, ProposalRow
 from server.schemas import CloseReason
 
+_LABELS = select(FeedbackRow.label).where(
+    FeedbackRow.proposal_id == bindparam("proposal"), FeedbackRow.status == "stored", FeedbackRow.undone_at.is_(None)
+)
 COUNTER_OF = {1: "good", 0: "neutral", -1: "bad", None: "cant_tell"}
 
 
@@ -42,8 +45,5 @@ def _count_votes(session: Session, proposal: ProposalRow, by: int) -> None:
         return
     session.flush()
     experiment = session.get_one(ExperimentRow, proposal.experiment_id)
-    query = select(FeedbackRow.label).where(
-        FeedbackRow.proposal_id == proposal.id, FeedbackRow.status == "stored", FeedbackRow.undone_at.is_(None)
-    )
-    for value in session.scalars(query):
+    for value in session.scalars(_LABELS, {"proposal": proposal.id}):
         count(experiment, value, by)

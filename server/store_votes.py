@@ -46,6 +46,21 @@ _FOUND = (
     .where(ProposalRow.id == bindparam("proposal"))
 )
 """What has to be known of a click before it is stored. Most clicks of a crowd are late, and need no more than this."""
+_JUDGED = (
+    select(ProposalRow, ExperimentRow)
+    .join(ExperimentRow, ExperimentRow.id == ProposalRow.experiment_id)
+    .where(ProposalRow.id == bindparam("proposal"))
+)
+_VOTES = (
+    select(TrainerRow.name, FeedbackRow.value)
+    .join(TrainerRow, TrainerRow.id == FeedbackRow.trainer_id)
+    .where(
+        FeedbackRow.proposal_id == bindparam("proposal"),
+        FeedbackRow.status == "stored",
+        FeedbackRow.undone_at.is_(None),
+    )
+    .order_by(FeedbackRow.id)
+)
 _KEEP = insert(table(FeedbackRow))
 _EXPERIMENT = table(ExperimentRow)
 _COUNT_LATE = (
@@ -127,13 +142,7 @@ def approve_evaluation(session: Session, proposal_id: int) -> ProposalRow:
 
 def votes(session: Session, proposal_id: int) -> dict[str, int | None]:
     """Counted votes, trainer -> value as it was clicked, in the order they came; None: can't tell."""
-    query = (
-        select(TrainerRow.name, FeedbackRow.value)
-        .join(TrainerRow, TrainerRow.id == FeedbackRow.trainer_id)
-        .where(FeedbackRow.proposal_id == proposal_id, FeedbackRow.status == "stored", FeedbackRow.undone_at.is_(None))
-        .order_by(FeedbackRow.id)
-    )
-    return dict(session.execute(query).all())
+    return dict(session.execute(_VOTES, {"proposal": proposal_id}).all())
 
 
 def verdict_of(
@@ -272,12 +281,7 @@ def _again(session: Session, proposal_id: int, click: schemas.FeedbackCreate, fo
 
 
 def _judged(session: Session, proposal_id: int) -> tuple[ProposalRow, ExperimentRow]:
-    query = (
-        select(ProposalRow, ExperimentRow)
-        .join(ExperimentRow, ExperimentRow.id == ProposalRow.experiment_id)
-        .where(ProposalRow.id == proposal_id)
-    )
-    return session.execute(query).one()
+    return session.execute(_JUDGED, {"proposal": proposal_id}).one()
 
 
 def _why(feedback: schemas.Feedback, why: str | None) -> schemas.Feedback:
