@@ -18,10 +18,14 @@ class CameraLook:
 
 @dataclass(frozen=True)
 class GuideLook:
-    """One look. advice: a key of what to do next, `said` in words. camera: which one it is about, or empty."""
+    """One look. advice: a key of what to do next, `said` in words. camera: which one it is about, or empty.
+
+    wanted: poses to take of each camera. fewest: those without which nothing can be calculated.
+    """
 
     cameras: tuple[CameraLook, ...]
     wanted: int
+    fewest: int
     advice: str
     camera: str
     said: str

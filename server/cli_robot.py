@@ -6,7 +6,7 @@ import json
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -15,6 +15,9 @@ from robot_adapters.registry import task as task_by_name
 from server.cli_ending import FAILED, INTERRUPTED, USAGE, give_up, stderr
 from server.cli_robot_check import check
 from server.settings import Settings
+
+if TYPE_CHECKING:
+    from robot_adapters.franka.perception.calibrating import Session, Step
 
 app = typer.Typer(help="Set up a real robot: check it, print tags, calibrate its cameras.", no_args_is_help=True)
 
@@ -95,7 +98,7 @@ def calibrate(  # noqa: PLR0917  Typer makes an option of each
         with stderr.status("Opening the cameras ...") as status:
 
             def told(step: calibrating.Step) -> None:
-                counts = ", ".join(f"{name} {count}/{wanted}" for name, count in step.taken.items())
+                counts = ", ".join(f"{name} {count}/{session.wanted}" for name, count in step.taken.items())
                 status.update(f"[bold]{counts}[/]  {step.said}")
 
             if recorded is not None:
@@ -103,10 +106,9 @@ def calibrate(  # noqa: PLR0917  Typer makes an option of each
             else:
                 hand = _hand(host, backend)
                 stderr.print("Press the enabling button and guide the arm. Poses are taken by themselves.")
-                while not (step := session.step(hand)).done:
-                    told(step)
+                _take_poses(session, hand, told)
             status.update("Calculating ...")
-            results = session.solve()
+            results = session.results or session.solve()
         if recorded is None:
             typer.prompt("Take the board away and the arm out of the picture, then press Enter", default="", err=True)
         files = session.store(sources, where)
@@ -130,6 +132,19 @@ def calibrate(  # noqa: PLR0917  Typer makes an option of each
         "seconds": round(time.monotonic() - started, 1),
     }
     _tell_result(summary, session.disagreement(), calibrating.GOOD, as_json)
+
+
+def _take_poses(session: Session, hand: Callable[[], Array], told: Callable[[Step], None]) -> None:
+    """Until they say where every camera is: what was taken isn't thrown away because more are wanting."""
+    from robot_adapters.franka.perception.hand_eye import NotEnough  # noqa: PLC0415
+
+    while not session.results:
+        while not (step := session.step(hand)).done:
+            told(step)
+        try:
+            session.solve()
+        except NotEnough as error:
+            stderr.print(f"{error}: {error.remedy}")
 
 
 def _tell_result(summary: dict[str, Any], apart: float | None, good: float, as_json: bool) -> None:

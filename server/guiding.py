@@ -7,13 +7,17 @@ from typing import Any
 from server.runner import Runner
 from server.schemas import Lifecycle
 from server.store import Conflict
+from server.worker import CommandFailed
+
+UNFIT = {"NotEnough", "TooInaccurate", "Refusal"}
+"""What the worker calls it where the poses won't do, or none were taken: that is for people to put right."""
 
 
 async def guide(runner: Runner, step: str, **arguments: Any) -> dict[str, Any]:
     """Do one step. Nothing moves by it.
 
     Raises:
-        Conflict: the robot is a simulated one, or the experiment runs.
+        Conflict: the robot is a simulated one, the experiment runs, or there are no poses that would do.
         CommandFailed, WorkerDied: the cameras or the arm can't do it, or the worker is gone.
     """
     if runner.attendance is None:
@@ -24,6 +28,26 @@ async def guide(runner: Runner, step: str, **arguments: Any) -> dict[str, Any]:
     station = runner.stations[0]
     await station.mend()
     await station.robot.post.fill()
-    told = await station.robot.guide(step, **arguments)
+    try:
+        told = await station.robot.guide(step, **arguments)
+    except CommandFailed as refusal:
+        if refusal.kind not in UNFIT:
+            raise
+        raise Conflict(str(refusal), remedy=refusal.remedy) from refusal
     station.forget()  # what was seen before was seen by other cameras
     return told
+
+
+async def under_way(runner: Runner) -> dict[str, Any]:
+    """The calibration that goes on, if one does: nothing is started or built to tell.
+
+    Raises:
+        Conflict: the robot is a simulated one.
+        CommandFailed, WorkerDied: the cameras or the arm can't be asked, or the worker is gone.
+    """
+    if runner.attendance is None:
+        raise Conflict("a simulated robot's cameras are exact", remedy="just start the experiment")
+    robot = runner.stations[0].robot
+    if runner.experiment.lifecycle is Lifecycle.RUNNING or runner.busy or not robot.post.ready:
+        return {}
+    return await robot.guide("guide_state")

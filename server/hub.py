@@ -11,7 +11,7 @@ from typing import Any, Literal
 from robot_adapters import registry
 from server import auto_approval, catalogue
 from server.desk import Desk
-from server.guiding import guide
+from server.guiding import guide, under_way
 from server.lifecycle import MOVING
 from server.messages import EvaluationChanged, ExecutionEnded, ExperimentChanged, RobotTold, Snapshot
 from server.presence import Presence
@@ -237,6 +237,11 @@ class Hub:
         """One step of a calibration of the cameras; see `server.guiding`."""
         async with self._verbs[experiment_id]:
             return await guide(await self._runner(experiment_id), step, **arguments)
+
+    async def guide_state(self, experiment_id: int) -> dict[str, Any]:
+        """The calibration of the cameras that goes on, if one does."""
+        async with self._verbs[experiment_id]:
+            return await under_way(await self._runner(experiment_id))
 
     async def update(self, experiment_id: int, body: ExperimentUpdate) -> Experiment:
         """Change what may change live.

@@ -79,6 +79,7 @@ NEEDS: dict[str, Need] = {
     "leave": OPERATOR,
     "recover": OPERATOR,
     "home": OPERATOR,
+    "get_camera_calibration": OPERATOR,
     "begin_camera_calibration": OPERATOR,
     "look_for_the_board": OPERATOR,
     "solve_camera_calibration": OPERATOR,

@@ -43,7 +43,8 @@ class GuideStep(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     cameras: list[GuideCamera]
-    wanted: Annotated[int, Field(description="poses to take of each camera")]
+    wanted: Annotated[int, Field(description="poses to take of each camera: what was asked for, or what is needed")]
+    fewest: Annotated[int, Field(description="poses of each camera without which nothing can be calculated")]
     advice: Annotated[Advice, Field(description="what to do next")]
     camera: Annotated[str, Field(description="which camera the advice is about; empty: all")]
     said: Annotated[str, Field(description="the advice in English")]
@@ -70,3 +71,12 @@ class GuideOutcome(BaseModel):
     cameras: list[GuideCameraResult]
     apart_mm: Annotated[float | None, Field(description="between where two cameras place the board; null with one")]
     stored: bool
+
+
+class GuideState(BaseModel):
+    """A calibration that goes on: what its cameras see now, and what it is worth once that is calculated."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    step: Annotated[GuideStep | None, Field(description="null where none goes on")] = None
+    outcome: Annotated[GuideOutcome | None, Field(description="null until it is calculated")] = None

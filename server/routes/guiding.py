@@ -7,12 +7,18 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Body
 
 from server.routes.dependencies import Id, Running, errors
-from server.schemas_guiding import GuideBegin, GuideOutcome, GuideStep, GuideTake
+from server.schemas_guiding import GuideBegin, GuideOutcome, GuideState, GuideStep, GuideTake
 
 BEGIN: dict[str, Any] = {"the board as it comes": {"value": {"square_mm": 36, "wanted": 15}}}
 TAKE: dict[str, Any] = {"take the pose": {"value": {"take": True}}}
 
 router = APIRouter(prefix="/experiments/{experiment_id}/camera-calibration", tags=["experiments"])
+
+
+@router.get("", responses=errors(404, 409, 422))
+async def get_camera_calibration(service: Running, experiment_id: Id) -> GuideState:
+    """What a calibration that goes on has so far, so that a page that was loaded anew goes on with it."""
+    return GuideState.model_validate(await service.hub.guide_state(experiment_id))
 
 
 @router.post("", responses=errors(404, 409, 413, 422))

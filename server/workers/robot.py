@@ -53,6 +53,7 @@ class Robot:
         self._told: dict[str, Any] | None = None
         self._told_at = 0.0
         self._guide: Guide | None = None
+        self._guide_worth: dict[str, Any] | None = None
 
     @property
     def adapter(self) -> Adapter:
@@ -169,7 +170,7 @@ class Robot:
         """Begin to calibrate a real robot's cameras; one that was under way is forgotten. Nothing moves."""
         if not isinstance(self.adapter, CalibratesCameras):
             raise Refusal("this robot's cameras aren't calibrated by hand", remedy="see its adapter's documentation")
-        self._guide = self.adapter.guide(square=square, wanted=wanted)
+        self._guide, self._guide_worth = self.adapter.guide(square=square, wanted=wanted), None
         return _looked(self._guide.look(take=False))
 
     def guide_look(self, *, take: bool) -> dict[str, Any]:
@@ -178,13 +179,20 @@ class Robot:
 
     def guide_solve(self) -> dict[str, Any]:
         """Calculate where the cameras are."""
-        return _result(self._guided().solve())
+        self._guide_worth = _result(self._guided().solve())
+        return self._guide_worth
 
     def guide_store(self) -> dict[str, Any]:
         """Keep that, and be done."""
         result = self._guided().store()
-        self._guide = None
+        self._guide = self._guide_worth = None
         return _result(result)
+
+    def guide_state(self) -> dict[str, Any]:
+        """What is under way, if anything is: the poses are kept here, not in a page."""
+        if self._guide is None:
+            return {}
+        return {"step": _looked(self._guide.look(take=False)), "outcome": self._guide_worth}
 
     def refresh(self) -> None:
         """Tell how a real robot is while nothing is asked of it: at once where that has changed."""
@@ -309,7 +317,7 @@ def serve(pipes: Pipes) -> None:
     robot = Robot(StopLatch(pipes.stop), FrameSender(pipes.frames))
     names = (
         *("build", "reset", "observe", "overlay", "execute", "home", "recover", "rearm"),
-        *("guide", "guide_look", "guide_solve", "guide_store"),
+        *("guide", "guide_look", "guide_solve", "guide_store", "guide_state"),
     )
     handlers = {name: getattr(robot, name) for name in names}
     with contextlib.suppress(BrokenPipeError, ConnectionResetError):

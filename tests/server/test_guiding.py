@@ -13,6 +13,7 @@ async def test_a_simulated_robot_has_no_cameras_to_calibrate(tmp_path: Path) -> 
         made = (await live.http.post("/api/v1/experiments", json=EXPERIMENT)).json()
         path = f"/api/v1/experiments/{made['id']}/camera-calibration"
         for answer in (
+            await live.http.get(path),
             await live.http.post(path, json={}),
             await live.http.post(f"{path}/looks", json={"take": True}),
             await live.http.post(f"{path}/solution"),

@@ -51,6 +51,11 @@ class DeoxysPeer:
         self._thread.join()
         self._context.destroy(linger=0)
 
+    def rotation(self) -> Array:
+        """(3, 3) of the hand: its fingers point down."""
+        cos, sin = np.cos(self.yaw), np.sin(self.yaw)
+        return np.array([[cos, sin, 0.0], [sin, -cos, 0.0], [0.0, 0.0, -1.0]])
+
     def _publisher(self, host: str, port: int) -> zmq.Socket[bytes]:
         socket = self._context.socket(zmq.PUB)
         socket.bind(f"tcp://{host}:{port}")
@@ -121,8 +126,7 @@ class DeoxysPeer:
     def _tell(self) -> None:
         state = wire.FrankaRobotStateMessage(robot_mode=self.mode)
         pose = np.eye(4)
-        cos, sin = np.cos(self.yaw), np.sin(self.yaw)
-        pose[:3, :3] = np.array([[cos, sin, 0.0], [sin, -cos, 0.0], [0.0, 0.0, -1.0]])
+        pose[:3, :3] = self.rotation()
         pose[:3, 3] = self.position
         state.O_T_EE.extend(pose.T.ravel().tolist())
         state.q.extend(self.joints.tolist())

@@ -460,7 +460,11 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        get?: never;
+        /**
+         * Get Camera Calibration
+         * @description What a calibration that goes on has so far, so that a page that was loaded anew goes on with it.
+         */
+        get: operations["get_camera_calibration"];
         /**
          * Store Camera Calibration
          * @description Keep the result, with what the cameras see now to notice by when one is moved: take board and arm away before.
@@ -3683,6 +3687,16 @@ export interface components {
             stored: boolean;
         };
         /**
+         * GuideState
+         * @description A calibration that goes on: what its cameras see now, and what it is worth once that is calculated.
+         */
+        GuideState: {
+            /** @description null where none goes on */
+            step: components["schemas"]["GuideStep"] | null;
+            /** @description null until it is calculated */
+            outcome: components["schemas"]["GuideOutcome"] | null;
+        };
+        /**
          * GuideStep
          * @description One look of a calibration.
          */
@@ -3691,9 +3705,14 @@ export interface components {
             cameras: components["schemas"]["GuideCamera"][];
             /**
              * Wanted
-             * @description poses to take of each camera
+             * @description poses to take of each camera: what was asked for, or what is needed
              */
             wanted: number;
+            /**
+             * Fewest
+             * @description poses of each camera without which nothing can be calculated
+             */
+            fewest: number;
             /**
              * Advice
              * @description what to do next
@@ -8018,6 +8037,100 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Experiment"];
+                };
+            };
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The state of things doesn't allow it; `current` and `allowed` say what does */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many requests; `Retry-After` says when to come again */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_camera_calibration: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                experiment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["GuideState"];
                 };
             };
             /** @description Nobody is signed in */

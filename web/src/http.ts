@@ -22,6 +22,7 @@ import type {
   ExperimentUpdate,
   Feedback,
   GuideOutcome,
+  GuideState,
   GuideStep,
   HistoryEntry,
   HistoryPage,
@@ -209,6 +210,8 @@ export const tend = (id: number, what: "home" | "recover") =>
 
 /** One calibration of the robot's cameras, step by step. */
 const guiding = (id: number) => `/experiments/${id}/camera-calibration`;
+
+export const guideState = (id: number) => request<GuideState>("GET", guiding(id));
 
 export const guide = (id: number, square_mm: number, wanted: number) =>
   request<GuideStep>("POST", guiding(id), { square_mm, wanted });

@@ -17,6 +17,7 @@ export type Together = Schemas["Together"];
 export type SceneInfo = Schemas["SceneInfo"];
 export type TrainerFigures = Schemas["TrainerFigures"];
 export type Telemetry = Schemas["Telemetry"];
+export type GuideState = Schemas["GuideState"];
 export type GuideStep = Schemas["GuideStep"];
 export type GuideOutcome = Schemas["GuideOutcome"];
 export type Incident = Schemas["Incident"];

@@ -27,6 +27,8 @@ from robot_adapters.franka.perception.watching import Watch
 
 WANTED = 15
 """Poses of each camera: about twice as many as are needed, so that some may be left out."""
+MORE = 3
+"""Poses to take after those that there are didn't do."""
 STILL = (0.0004, np.deg2rad(0.1))
 """m and rad that the hand may move while a picture is taken."""
 NEW = (0.04, np.deg2rad(8.0))
@@ -84,7 +86,7 @@ class Step:
 
 @dataclass
 class Session:
-    """One calibration of some cameras. `hand` tells where the robot's hand is."""
+    """One calibration of some cameras. wanted: poses of each; more where their lenses need them."""
 
     watches: Mapping[str, Watch]
     board: Board
@@ -94,6 +96,14 @@ class Session:
     _sightings: dict[str, list[Sighting]] = field(default_factory=dict)
     _hands: list[Array] = field(default_factory=list)
     _recorded: bool = False
+
+    def __post_init__(self) -> None:
+        self.wanted = max(self.wanted, self.fewest)
+
+    @property
+    def fewest(self) -> int:
+        """Poses of each camera without which nothing can be calculated."""
+        return max(hand_eye.fewest(watch.lens) for watch in self.watches.values())
 
     def step(self, hand: HandPose, *, take: bool = True) -> Step:
         """Look once; unless told not to, take the pose if it is worth it.
@@ -129,15 +139,18 @@ class Session:
         """Where every camera is.
 
         Raises:
-            NotEnough: the poses don't say; the remedy says which are wanting.
+            NotEnough: the poses don't say; the remedy says which are wanting. Some more are wanted from then on.
         """
+        self.results, found = {}, {}
         for name, watch in self.watches.items():
             height, width = self.pictures[name].colour.shape[:2] if name in self.pictures else (0, 0)
             try:
-                self.results[name] = hand_eye.solve(self._sightings.get(name, []), watch.lens, (width, height))
+                found[name] = hand_eye.solve(self._sightings.get(name, []), watch.lens, (width, height))
             except hand_eye.NotEnough as error:
+                self.wanted = max(self.wanted, min(len(self._sightings.get(n, [])) for n in self.watches) + MORE)
                 raise hand_eye.NotEnough(f"camera {name}: {error}", remedy=error.remedy) from error
-        return self.results
+        self.results = found
+        return found
 
     def store(self, sources: Mapping[str, str], where: Path) -> list[Path]:
         """Write the calibrations with what every camera sees now; the files. Take board and arm away before.

@@ -37,7 +37,9 @@ class Guided:
             )
             for name in self._session.watches
         )
-        return GuideLook(cameras, self._session.wanted, step.advice, step.camera, step.said, step.done)
+        return GuideLook(
+            cameras, self._session.wanted, self._session.fewest, step.advice, step.camera, step.said, step.done
+        )
 
     def solve(self) -> GuideResult:
         """See `Guide`."""

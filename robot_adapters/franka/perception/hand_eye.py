@@ -68,7 +68,7 @@ def solve(sightings: Sequence[Sighting], lens: Lens | None, size: tuple[int, int
     Raises:
         NotEnough: too few poses, or poses that are too much alike.
     """
-    require(sightings, FEWEST if lens is not None else FEWEST_FOR_LENS)
+    require(sightings, fewest(lens))
     lens = lens or _lens(sightings, size)
     camera, board = _start(sightings, lens)
     camera, board = _refine(sightings, lens, camera, board)
@@ -84,15 +84,20 @@ def solve(sightings: Sequence[Sighting], lens: Lens | None, size: tuple[int, int
     return HandEye(View(lens, camera), board, float(np.median(held_out)), len(kept), len(sightings) - len(kept))
 
 
-def require(sightings: Sequence[Sighting], fewest: int) -> None:
+def fewest(lens: Lens | None) -> int:
+    """Poses without which a camera with this lens, or with one that nobody knows, can't be calibrated."""
+    return FEWEST if lens is not None else FEWEST_FOR_LENS
+
+
+def require(sightings: Sequence[Sighting], at_least: int) -> None:
     """Whether the poses determine the camera's place.
 
     Raises:
         NotEnough: they don't; the remedy says which are wanting.
     """
-    if len(sightings) < fewest:
+    if len(sightings) < at_least:
         raise NotEnough(
-            f"{len(sightings)} poses of the board, of {fewest} at least",
+            f"{len(sightings)} poses of the board, of {at_least} at least",
             remedy="take more, each tilted in another way, all over what the camera sees of the table",
         )
     axes = turns([s.base_from_hand for s in sightings])

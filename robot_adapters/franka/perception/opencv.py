@@ -27,8 +27,9 @@ class Captured:
 
     def read(self) -> Picture:
         """See `Camera`."""
-        there, image = self._capture.read()
+        # what was taken while nobody read waits in the driver: it is no newer than this
         taken_at = time.time()
+        there, image = self._capture.read()
         if not there:
             what = "gives no more pictures" if self.live else "has come to its end"
             raise CameraLost(f"{self._source} {what}", remedy="check its cable, then resume")

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from robot_adapters.base import AdapterError
 from robot_adapters.franka.perception.camera import Camera, CameraLost, Lens, Picture
 
-SILENT = 1.0
+SILENT = 2.0
 """s without a new picture after which a camera counts as dead."""
 FIRST = 8.0
 """s that the first picture may take: exposure settles, USB is set up."""

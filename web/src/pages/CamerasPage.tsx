@@ -1,6 +1,6 @@
 // Calibrating a real robot's cameras: what they see of the board, how many poses there are, what the result is worth.
 
-import { useEffect, useRef, useState } from "react";
+import { useCallback, useEffect, useRef, useState } from "react";
 import { Field } from "../components/Field";
 import { GuideCameras, GuideWorth } from "../components/GuideCameras";
 import { Header } from "../components/Header";
@@ -11,15 +11,14 @@ import type { GuideOutcome, GuideStep, Problem } from "../wire";
 
 /** Between the end of a look and the next one. */
 const AGAIN_MS = 300;
-/** Poses of each camera from which a result can be calculated. */
-const FEWEST = 8;
 
 function useGuide(id: number) {
   const [step, setStep] = useState<GuideStep | null>(null);
   const [outcome, setOutcome] = useState<GuideOutcome | null>(null);
   const [problem, setProblem] = useState<Problem | null>(null);
   const [busy, setBusy] = useState(false);
-  const ask = async <T,>(request: Promise<T>, then: (told: T) => void) => {
+  const [known, setKnown] = useState(false);
+  const ask = useCallback(async <T,>(request: Promise<T>, then: (told: T) => void) => {
     setBusy(true);
     try {
       then(await request);
@@ -28,25 +27,41 @@ function useGuide(id: number) {
       setProblem(http.problemOf(error));
     }
     setBusy(false);
-  };
+  }, []);
+  // the poses are kept by the service: a page that was loaded anew goes on with them
+  const recall = useCallback(async () => {
+    try {
+      const told = await http.guideState(id);
+      setStep(told.step ?? null);
+      setOutcome(told.outcome ?? null);
+    } catch (error) {
+      setProblem(http.problemOf(error));
+    }
+    setKnown(true);
+  }, [id]);
+  useEffect(() => void recall(), [recall]);
   const begin = (square: number, wanted: number) =>
     ask(http.guide(id, square, wanted), (told) => {
       setOutcome(null);
       setStep(told);
     });
-  const solve = () => ask(http.guideSolve(id), setOutcome);
+  const solve = async () => {
+    await ask(http.guideSolve(id), setOutcome);
+    await recall(); // where the poses don't do, more are wanted
+  };
   const store = () => ask(http.guideStore(id), setOutcome);
   const restart = () => {
     setStep(null);
     setOutcome(null);
     setProblem(null);
   };
-  return { step, setStep, outcome, problem, setProblem, busy, begin, solve, store, restart };
+  return { known, step, setStep, outcome, problem, busy, begin, solve, store, restart };
 }
 
 /** Looks again and again; a pose is taken where `taking` says so. */
 function useLooking(id: number, guide: ReturnType<typeof useGuide>, taking: () => boolean) {
-  const { step, outcome, busy, setStep, setProblem } = guide;
+  const { step, outcome, busy, setStep } = guide;
+  const [problem, setProblem] = useState<Problem | null>(null);
   const looking = step !== null && !step.done && !outcome && !busy;
   const take = useRef(taking);
   take.current = taking;
@@ -70,7 +85,8 @@ function useLooking(id: number, guide: ReturnType<typeof useGuide>, taking: () =
       gone = true;
       clearTimeout(timer);
     };
-  }, [looking, id, setStep, setProblem]);
+  }, [looking, id, setStep]);
+  return looking ? problem : null;
 }
 
 function Begin({ busy, onBegin }: { busy: boolean; onBegin: (square: number, wanted: number) => void }) {
@@ -102,8 +118,8 @@ export function CamerasPage({ id }: { id: number }) {
   const guide = useGuide(id);
   const [auto, setAuto] = useState(true);
   const once = useRef(false);
-  const { step, outcome, problem, busy } = guide;
-  useLooking(id, guide, () => {
+  const { known, step, outcome, busy } = guide;
+  const unseen = useLooking(id, guide, () => {
     const take = auto || once.current;
     once.current = false;
     return take;
@@ -111,7 +127,8 @@ export function CamerasPage({ id }: { id: number }) {
   useEffect(() => {
     document.title = `${t("cameras.title")} · SEED`;
   }, []);
-  const enough = step?.cameras.every(({ taken }) => taken >= FEWEST);
+  const problem = guide.problem ?? unseen;
+  const enough = step?.cameras.every(({ taken }) => taken >= step.fewest);
   return (
     <>
       <Header back />
@@ -127,7 +144,7 @@ export function CamerasPage({ id }: { id: number }) {
             {`${problem.detail} ${problem.remedy}`}
           </p>
         )}
-        {!step && <Begin busy={busy} onBegin={(...given) => void guide.begin(...given)} />}
+        {known && !step && <Begin busy={busy} onBegin={(...given) => void guide.begin(...given)} />}
         {step && !outcome && (
           <section className="card calibrating" aria-label={t("cameras.title")}>
             <p className="advice" role="status" data-testid="guide-advice" data-advice={step.advice}>

@@ -19,7 +19,7 @@ from robot_adapters.franka.perception.board import Board, Corners
 from robot_adapters.franka.perception.calibrating import BadPoses, Session, Step, read_poses
 from robot_adapters.franka.perception.calibration import BadCalibration, Calibration
 from robot_adapters.franka.perception.camera import Lens, Picture
-from robot_adapters.franka.perception.hand_eye import NotEnough, Sighting
+from robot_adapters.franka.perception.hand_eye import FEWEST, NotEnough, Sighting
 from robot_adapters.franka.perception.moved import Reference
 from robot_adapters.franka.perception.rays import View, on_plane
 from robot_adapters.franka.perception.watching import Watch
@@ -153,12 +153,15 @@ def test_the_guide_says_what_to_do_next(stage: Stage, views: dict[str, View]) ->
     assert taken.taken == {"left": 1}
     assert len(taken.corners["left"]) == 24
     assert "tilt the board in another way" in step(hand(held), hand(held)).said
-    other = facing([truth.eye], rng)
-    stage.place("board", other[:3, 3], other[:3, :3])
-    done = step(hand(other), hand(other))
-    assert done.done
-    with pytest.raises(NotEnough, match="camera left: 2 poses"):
+    with pytest.raises(NotEnough, match="camera left: 1 poses"):
         session.solve()
+    assert session.wanted == FEWEST  # two were asked for, which can't do
+    for _ in range(20):
+        other = facing([truth.eye], rng)
+        stage.place("board", other[:3, 3], other[:3, :3])
+        if (last := step(hand(other), hand(other))).done:
+            break
+    assert (last.done, last.taken) == (True, {"left": FEWEST})
 
 
 @pytest.mark.parametrize(

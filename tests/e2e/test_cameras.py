@@ -1,0 +1,96 @@
+"""A lab with two live cameras and an arm without physics is calibrated in a browser.
+
+The pictures are rendered and come over the network as an OpenCV device's; the arm is a Deoxys peer of our own.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from playwright.sync_api import Page, ViewportSize, expect
+
+from tests.e2e.trainer import START_MS, Opener
+from tests.live import LiveService
+from tests.robot_adapters.franka.conftest import APART
+from tests.robot_adapters.franka.perception.broadcasting import Lab
+from tests.robot_adapters.franka.perception.poses import as_told, facing, hand
+
+ASKED, POSES = 8, 12
+"""A camera that tells nothing of its lens needs four more than one that does."""
+DESK: ViewportSize = {"width": 1280, "height": 900}
+PHONE: ViewportSize = {"width": 390, "height": 844}
+BOTH = ("left", "right")
+
+
+@pytest.fixture
+def lab() -> Iterator[Lab]:
+    made = Lab({name: np.array(at) for name, at in APART.items()})
+    yield made
+    made.close()
+
+
+def taken(page: Page, count: int) -> None:
+    for camera in BOTH:
+        counted = page.get_by_test_id(f"guide-{camera}").get_by_test_id("taken")
+        expect(counted).to_have_text(f"{count} of {POSES} poses", timeout=START_MS)
+
+
+def fits(page: Page) -> bool:
+    """Whether nothing sticks out to the side."""
+    return bool(page.evaluate("() => document.documentElement.scrollWidth <= window.innerWidth"))
+
+
+def test_cameras_are_calibrated_by_clicks_also_over_a_reload_and_on_a_phone(
+    opener: Opener, lab: Lab, service: LiveService, tmp_path: Path
+) -> None:
+    where = tmp_path / "calibration"
+    settings = lab.settings(where)
+    trainer = opener(adapter="franka", adapter_settings=settings, start=False)
+    page, path = trainer.page, f"/api/v1{trainer.path}/camera-calibration"
+    page.set_viewport_size(DESK)
+    page.goto(f"{service.url}{trainer.path}/cameras")
+    page.get_by_label("Poses of each camera").fill(str(ASKED))
+    page.get_by_test_id("calibrate").click()
+    expect(page.get_by_test_id("guide-advice")).to_have_attribute("data-advice", "unseen", timeout=START_MS)
+    early = service.http.post(f"{path}/solution")
+    assert early.status_code == 409
+    assert "poses" in early.json()["detail"] + early.json()["remedy"]
+
+    rng = np.random.default_rng(5)
+    eyes = [lab.views[name].eye for name in BOTH]
+    for number in range(1, POSES + 1):
+        held = facing(eyes, rng)
+        lab.guide(hand(held), as_told(hand(held), rng))
+        taken(page, number)
+        if number == POSES // 2:
+            page.reload()
+            taken(page, number)
+    expect(page.get_by_test_id("guide-advice")).to_have_attribute("data-advice", "enough")
+    assert fits(page)
+    page.get_by_test_id("guide-solve").click()
+    result = page.get_by_test_id("guide-result")
+    for camera in BOTH:
+        expect(result.get_by_text(re.compile(rf"{camera}: \d\.\d mm off, from {POSES} poses"))).to_be_visible(
+            timeout=START_MS
+        )
+    page.set_viewport_size(PHONE)
+    page.reload()
+    expect(result).to_be_visible(timeout=START_MS)
+    assert fits(page)
+    assert not list(where.glob("*.json"))
+    lab.let_go()
+    page.get_by_test_id("guide-store").click()
+    expect(page.get_by_test_id("guide-stored")).to_be_visible(timeout=START_MS)
+    assert {file.stem for file in where.glob("*.json")} == set(BOTH)
+    assert service.get(f"{trainer.path}/camera-calibration") == {"step": None, "outcome": None}
+
+    page.set_viewport_size(DESK)
+    trainer.open()
+    trainer.test_id("start").click()
+    state = trainer.stored(trainer.drawn())["state"]
+    truth = np.concatenate([lab.arm.blocks["block_a"], lab.arm.blocks["block_b"]])
+    assert np.abs(np.array(state) - truth).max() < 0.006
