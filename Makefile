@@ -71,13 +71,13 @@ web/node_modules/.installed-dev: web/package.json web/package-lock.json | $(VENV
 	@touch $@
 
 # pytest comes last, so that its summary is the last thing to be read.
-test: setup-dev
+test: setup-dev .simulators/.installed
 	@bash scripts/system.sh test $(PYTHON)
 	@$(MAKE) --no-print-directory check test-web
 	@echo "==> Tests"
-	@$(BIN)/python -m pytest -n $(PYTEST_WORKERS) --dist loadfile --no-loadscope-reorder -m "not simulated_arm" $(PYTEST_ARGS)
+	@$(BIN)/python -m pytest -n $(PYTEST_WORKERS) --dist loadfile --no-loadscope-reorder -m "not long" $(PYTEST_ARGS)
 
-# A simulated Franka turns at 1 kHz. Beside other tests on two cores it misses its time, and what it tells is about that.
+# Everything on the simulated Franka, with the long runs that `make test` has no time for.
 test-arm: setup-dev .simulators/.installed
 	@$(BIN)/python -m pytest -m simulated_arm $(PYTEST_ARGS)
 

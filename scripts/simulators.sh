@@ -22,7 +22,12 @@ environment() { # name, then what to install
     printf '%s' "$wanted" >"$folder/.installed"
 }
 
+# Both at once: each spends half of its time waiting for downloads and for its one core.
 # the arm's interface with the hand, in MuJoCo; pin's newer and older majors have other names for what it uses
-environment franky-sim franky-sim==1.0.4 mujoco==4.0.0 numpy==2.4.6 pin==4.1.0
+environment franky-sim franky-sim==1.0.4 mujoco==4.0.0 numpy==2.4.6 pin==4.1.0 &
+first=$!
 # the same interface, strict about late and lost commands
-environment franka-sim franka-sim==1.1.7 mujoco==3.2.7 numpy==1.26.4
+environment franka-sim franka-sim==1.1.7 mujoco==3.2.7 numpy==1.26.4 &
+second=$!
+wait "$first"
+wait "$second"

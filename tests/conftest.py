@@ -10,10 +10,19 @@ from typing import Any
 import pytest
 
 from tests.live import LiveService
+from tests.simulators.franka import PYTHON as SIMULATOR
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Browser tests come last: while Playwright's loop runs in the main thread, no asyncio test can."""
+    """Browser tests come last: while Playwright's loop runs in the main thread, no asyncio test can.
+
+    Those of the simulated arm are skipped where `make` makes no simulator.
+    """
+    if not SIMULATOR.exists():
+        skip = pytest.mark.skip(reason="no simulated Franka on this machine (scripts/simulators.sh)")
+        for item in items:
+            if item.get_closest_marker("simulated_arm"):
+                item.add_marker(skip)
     items.sort(key=lambda item: "/e2e/" in item.path.as_posix())
 
 

@@ -20,6 +20,8 @@ SILENCE = 0.5
 """s of real time without a new state, after which the arm counts as gone."""
 HAND_PATIENCE = 6.0
 """s of the robot's clock for the fingers to open or close: all the way takes two."""
+SHUT = 0.01
+"""m between the fingers below which they are closed, whatever they were asked last."""
 HOMING_PATIENCE = 30.0
 """s of the robot's clock for the way to the joints of home."""
 HOMING_LIFT = 0.15
@@ -57,7 +59,7 @@ class FrankaArm:
             )
         self._state = backend.state()
         self._pacer: Pacer | None = None
-        self._closed = backend.hand().width < 0.01  # m: an open hand is open; a held object is told by `grasp` only
+        self._closed = backend.hand().width < SHUT  # an open hand is open; a held object is told by `grasp` only
         self._trim = np.zeros(3)
         self._overload: str | None = None
         self.should_stop: Callable[[], bool] = lambda: False
@@ -141,6 +143,8 @@ class FrankaArm:
         """
         self._overload = None
         self._must_be_well(self.look())
+        if self.backend.hand().width < SHUT:  # somebody may have closed them by hand, and a skill must open them then
+            self._closed = True
 
     def end(self) -> None:
         """Give control back after a skill."""

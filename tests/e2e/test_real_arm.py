@@ -10,22 +10,27 @@ from playwright.sync_api import expect
 from tests.e2e.trainer import START_MS, Opener
 from tests.live import wait_for
 from tests.robot_adapters.franka.conftest import APART, BLOCKS, TABLE
-from tests.simulators.franka import PYTHON, SimulatedFranka
+from tests.simulators.franka import SimulatedFranka
 
 pytestmark = pytest.mark.simulated_arm
 
 
 @pytest.fixture
 def lab() -> Iterator[SimulatedFranka]:
-    if not PYTHON.exists():
-        pytest.skip("no simulated Franka on this machine (scripts/simulators.sh)")
     with SimulatedFranka(table=TABLE, blocks=BLOCKS) as simulated:
         simulated.tell(place=APART)
         yield simulated
 
 
-def test_an_operator_attends_judges_and_brings_the_arm_home(opener: Opener, lab: SimulatedFranka) -> None:
-    settings = {"host": lab.host, "realtime": False, "eyes": "onlooker", "eyes_settings": {"host": lab.host}}
+@pytest.mark.parametrize("backend", ["franka_rs", pytest.param("franky", marks=pytest.mark.long)])
+def test_an_operator_attends_judges_and_brings_the_arm_home(backend: str, opener: Opener, lab: SimulatedFranka) -> None:
+    settings = {
+        "host": lab.host,
+        "backend": backend,
+        "realtime": False,
+        "eyes": "onlooker",
+        "eyes_settings": {"host": lab.host},
+    }
     trainer = opener(adapter="franka", adapter_settings=settings, start=False)
     trainer.service.http.patch(f"/api/v1{trainer.path}", json={"mode": "execute_approved"})
     trainer.test_id("start").click()

@@ -20,7 +20,10 @@ AT = np.array([0.55, 0.0, -0.1])
 
 
 class Onlooker:
-    """`Eyes` that need no cameras. Its settings: `host` of the simulator, and `lost`, objects that it can't see."""
+    """`Eyes` that need no cameras.
+
+    Settings: `host` of the simulator; `lost`, objects that it can't see; `joints`, what it says of what slides.
+    """
 
     cameras = tuple(LOOKS)
     image_size = (WIDTH, HEIGHT)
@@ -33,6 +36,9 @@ class Onlooker:
         lost = settings.get("lost", [])
         assert isinstance(lost, list)
         self._lost = dict.fromkeys([str(name) for name in lost], "hidden for 3 s")
+        joints = settings.get("joints", {})
+        assert isinstance(joints, dict)
+        self._joints = {str(name): float(at) for name, at in joints.items()}
         self._calibrations = {name: _looking(eye) for name, eye in LOOKS.items()}
 
     def calibrations(self) -> Mapping[str, CameraCalibration]:
@@ -44,7 +50,7 @@ class Onlooker:
     def look(self, hand: Hand) -> Sight:
         objects = self._objects()
         now = time.time()
-        return Sight(objects, dict.fromkeys(objects, now), missing=self._lost)
+        return Sight(objects, dict.fromkeys(objects, now), self._joints, missing=self._lost)
 
     def frame(self, camera: str, *, still: bool) -> CameraFrame:
         image = Image.new("RGB", (WIDTH, HEIGHT), (210, 205, 195))

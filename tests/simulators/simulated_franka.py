@@ -32,7 +32,9 @@ FORCE_FILTER = 0.05  # of a new force in every millisecond, about what the real 
 LOCK_STEP_PATIENCE = 3.0  # s for a client's command before it counts as lost: a loaded machine may need them
 GONE_PATIENCE = 0.02  # s, likewise, once one was lost: nobody may be there any more
 STANDING = 0.01  # rad/s of every joint, below which the arm stands still: less than 1 cm/s at the hand
+PULL = 4.0  # N, twice what a grasp of 20 N holds of a smooth block
 CONTROL_PORT = 1339
+UNSTABLE = (mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC)
 TIP = 0.1034  # m from the hand's frame to the end effector's, as Desk sets it for the hand
 
 
@@ -75,7 +77,6 @@ class Lab:
         self.paced = False
         self.moved_at, self.moved_on = 0, 0.0
         self.driven_at, self.driven_on = 0, 0.0
-        self.slippery = False
         self.clock = 0
         self.push = np.zeros(3)
         self.push_until = 0
@@ -104,6 +105,8 @@ class Lab:
             server.send_state()
             if self.clock % 10 == 0:
                 self.hear()
+                if any(self.data.warning[what].number for what in UNSTABLE):
+                    sys.exit("the simulation is unstable: what it tells from here on isn't true")
             if self.paced or not (self.lock_step and server.moving):
                 due = max(due + 0.001 / self.speed, time.monotonic() - 0.02)
                 time.sleep(max(0.0, due - time.monotonic()))
@@ -249,13 +252,17 @@ class Lab:
         """Somebody pushes the hand: x, y, z in N, base frame, and for how many s."""
         self.push, self.push_until = np.array(how[:3]), self.clock + round(1000 * how[3])
 
+    def do_fingers(self, width: float) -> None:
+        """Somebody moves the fingers by hand: m between them."""
+        self.robot.set_hand_goal(width, 0.05, 70.0)
+
     def do_slippery(self, on: bool) -> None:
-        """Fingers and blocks lose all their grip."""
+        """Blocks are smooth and pulled down, or as they were: fingers close on them, and they slide out."""
+        model = self.sim.model
         for body in self.blocks.values():
-            self.sim.model.geom_friction[body.geomadr[0], 0] = 0.001 if on else 1.5
-            self.sim.model.geom_condim[body.geomadr[0]] = 3 if on else 4
-        pads = self.arm[self.sim.model.geom_bodyid]
-        self.sim.model.geom_friction[pads, 0] = 0.001 if on else 1.0
+            model.geom_friction[body.geomadr[0], 0] = 0.05 if on else 1.5
+            self.data.xfrc_applied[body.id, 2] = -PULL if on else 0.0
+        model.geom_friction[self.arm[model.geom_bodyid], 0] = 0.05 if on else 1.0
 
 
 def main() -> None:

@@ -11,7 +11,7 @@ import pytest
 from robot_adapters.franka import FrankaSettings
 from robot_adapters.franka.adapter import FrankaAdapter
 from tests.live import PLUGINS
-from tests.simulators.franka import PYTHON, SimulatedFranka
+from tests.simulators.franka import SimulatedFranka
 
 BLOCKS = {"block_a": 0.02, "block_b": 0.025}
 TABLE = -0.112
@@ -28,8 +28,6 @@ def _onlooker() -> None:
 @pytest.fixture(scope="module")
 def arm() -> Iterator[SimulatedFranka]:
     """A simulated arm at a table with two blocks; time waits for who drives it."""
-    if not PYTHON.exists():
-        pytest.skip("no simulated Franka on this machine (scripts/simulators.sh)")
     with SimulatedFranka(table=TABLE, blocks=BLOCKS) as simulated:
         yield simulated
 

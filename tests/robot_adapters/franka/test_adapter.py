@@ -37,11 +37,16 @@ def test_it_stacks_a_real_block_on_another(backend: str, build: Build, arm: Simu
     assert errors(arm, "block_a", on_top) < 0.005
 
 
-def test_a_grasp_of_nothing_is_told_by_the_width(build: Build, arm: SimulatedFranka) -> None:
+def test_a_grasp_of_nothing_is_told_by_the_width(build: Build) -> None:
     adapter = build()
     adapter.reset()
     away = (0.55, 0.0, APART["block_a"][2])
     assert run(adapter, SkillCall("pick", away)).end is EndReason.NOTHING_GRASPED
+
+
+@pytest.mark.long
+def test_a_block_that_slips_out_of_the_fingers_was_not_grasped(build: Build, arm: SimulatedFranka) -> None:
+    adapter = build()
     arm.tell(slippery=True)
     adapter.reset()
     assert run(adapter, SkillCall("pick", tuple(APART["block_a"]))).end is EndReason.NOTHING_GRASPED

@@ -18,6 +18,7 @@ def options(arm: SimulatedFranka, backend: str = "franka_rs") -> list[str]:
     return ["robot", "check", "--host", arm.host, "--backend", backend, "--set", "adapter.realtime=false", *eyes]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("backend", ["franka_rs", "franky"])
 def test_an_arm_that_is_ready_is_told_so_after_a_slow_dry_run(arm: SimulatedFranka, backend: str) -> None:
     arm.tell(user_stop=False, plug=True, lock_step=True, heal=True)

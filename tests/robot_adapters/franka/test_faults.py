@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import threading
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -134,6 +135,51 @@ def test_a_stop_during_a_motion_or_a_grasp_is_heeded(backend: str, build: Build,
         arm.tell(heal=True, place=APART)
 
 
+@both
+def test_a_motion_that_nobody_drives_any_more_is_stopped_after_the_time_that_was_set(
+    backend: str, build: Build, arm: SimulatedFranka
+) -> None:
+    adapter = build(backend=backend, dead_man=0.3)
+    adapter.reset()
+
+    def hang() -> None:
+        wait_for(lambda: arm.truth()["mode"] == "kIdle", "the dead-man timer to stop the arm")
+
+    assert moved(adapter, AWAY, hang).end is EndReason.STOPPED
+    assert arm.truth()["mode"] == "kIdle"
+
+
+def test_with_more_patience_it_goes_on(build: Build, arm: SimulatedFranka) -> None:
+    adapter = build(dead_man=10.0)
+    adapter.reset()
+
+    def dawdle() -> None:
+        asked = time.monotonic()
+        wait_for(lambda: time.monotonic() - asked > 0.8, "more than the impatient one's time")
+
+    assert moved(adapter, AWAY, dawdle).end is EndReason.ARRIVED
+
+
+@both
+def test_the_way_down_near_the_table_is_slow(backend: str, build: Build) -> None:
+    adapter = build(backend=backend)
+    adapter.reset()
+    seen: list[tuple[float, float]] = []
+    low = SkillCall("place", (0.65, 0.10, TABLE + 0.02))
+    result = adapter.execute(
+        low,
+        should_stop=never,
+        on_step=lambda: seen.append((adapter.arm.state.time, float(adapter.arm.state.position[2]))),
+    )
+    assert result.end is EndReason.ARRIVED
+    (times, heights), limits = np.array(seen).T, FrankaSettings()
+    down = -np.diff(heights) / np.diff(times)
+    near = heights[1:] < TABLE + limits.approach_height - 0.01
+    assert down[~near].max() > 2 * limits.approach_speed
+    assert near.sum() > 10
+    assert down[near].max() < 1.5 * limits.approach_speed
+
+
 def test_threads_that_hog_python_disturb_no_motion(build: Build, arm: SimulatedFranka) -> None:
     adapter = build()
     adapter.reset()
@@ -155,8 +201,9 @@ def test_threads_that_hog_python_disturb_no_motion(build: Build, arm: SimulatedF
     assert arm.truth()["lost"] == lost
 
 
-def test_the_workspace_is_kept_whatever_a_task_allows(build: Build, arm: SimulatedFranka) -> None:
-    adapter = build(workspace_low=(0.28, -0.2, TABLE), workspace_high=(0.55, 0.2, TABLE + 0.7))
+@both
+def test_the_workspace_is_kept_whatever_a_task_allows(backend: str, build: Build, arm: SimulatedFranka) -> None:
+    adapter = build(backend=backend, workspace_low=(0.28, -0.2, TABLE), workspace_high=(0.55, 0.2, TABLE + 0.7))
     adapter.reset()
     reached = []
     result = adapter.execute(AWAY, should_stop=never, on_step=lambda: reached.append(arm.truth()["tip"][0]))
