@@ -164,6 +164,14 @@ class Estimating(Protocol):
         """
 
 
+@runtime_checkable
+class Recollecting(Protocol):
+    """An algorithm that can be asked for proposals before it has all of its old labels back."""
+
+    def recollect(self, labels: Sequence[Label]) -> None:
+        """After `restore`, take others, older or newer: as if `restore` had been given them too."""
+
+
 class AlgorithmFactory(Protocol):
     """What an entry point of the group `seed.algorithms` names."""
 

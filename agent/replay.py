@@ -112,14 +112,17 @@ class Replay:
         """
         self._balanced, self._believed = balanced, believed
         self._size = 0
-        self._ids = np.zeros(INITIAL_CAPACITY, dtype=np.int64)
-        self._states = np.zeros((INITIAL_CAPACITY, state_size), dtype=np.float32)
-        self._skills = np.zeros(INITIAL_CAPACITY, dtype=np.int64)
-        self._parameters = np.zeros((INITIAL_CAPACITY, parameter_size), dtype=np.float32)
-        self._values = np.zeros(INITIAL_CAPACITY, dtype=np.int8)
-        self._trainers = np.zeros(INITIAL_CAPACITY, dtype=np.int64)
-        self._targets = np.zeros(INITIAL_CAPACITY, dtype=np.float32)
-        self._keypoints = np.zeros((INITIAL_CAPACITY, *keypoints), dtype=np.float32)
+        self._room: tuple[NDArray[Any], ...] = (
+            np.zeros(INITIAL_CAPACITY, dtype=np.int64),
+            np.zeros((INITIAL_CAPACITY, state_size), dtype=np.float32),
+            np.zeros(INITIAL_CAPACITY, dtype=np.int64),
+            np.zeros((INITIAL_CAPACITY, parameter_size), dtype=np.float32),
+            np.zeros(INITIAL_CAPACITY, dtype=np.int8),
+            np.zeros(INITIAL_CAPACITY, dtype=np.int64),
+            np.zeros(INITIAL_CAPACITY, dtype=np.float32),
+            np.zeros((INITIAL_CAPACITY, *keypoints), dtype=np.float32),
+        )
+        self._begin_at(0)
         self._by_value: dict[int, NDArray[np.int64]] | None = None
         self._means: NDArray[np.int8] | None = None
 
@@ -168,6 +171,8 @@ class Replay:
     def take(self, other: Replay) -> None:
         """Take all labels of another replay of the same widths at once: moves every row once, whatever the order.
 
+        Where all of them are older than those held, or newer, only theirs are moved.
+
         Raises:
             ValueError: one of its ids is held already; nothing was taken.
         """
@@ -176,6 +181,9 @@ class Replay:
         inside = at < len(ids)
         if (held := theirs[inside][ids[at[inside]] == theirs[inside]]).size:
             raise ValueError(f"label {held[0]} is held already")
+        if len(ids) and len(theirs) and theirs[-1] < ids[0]:
+            self._put_before(other)
+            return
         before, self._size = self._size, self._size + other._size
         while self._size > len(self._ids):
             self._grow()
@@ -285,7 +293,33 @@ class Replay:
             self._keypoints,
         )
 
+    def _put_before(self, other: Replay) -> None:
+        """Take labels that are all older than those held."""
+        if self._first < other._size:
+            self._make_room(before=max(other._size, self._size), behind=0)
+        self._begin_at(self._first - other._size)
+        self._size += other._size
+        for column, added in zip(self._columns(), other._columns(), strict=True):
+            column[: other._size] = added[: other._size]
+        self._by_value = self._means = None
+
     def _grow(self) -> None:
+        self._make_room(before=0, behind=len(self._ids))
+
+    def _make_room(self, *, before: int, behind: int) -> None:
+        """Room for so many more labels older and newer than those held."""
+        held, first = self._columns(), self._first + before
+        self._room = tuple(
+            np.zeros((before + len(old) + behind, *old.shape[1:]), dtype=old.dtype) for old in self._room
+        )
+        self._begin_at(first)
+        for column, old in zip(self._columns(), held, strict=True):
+            count = min(self._size, len(old))
+            column[:count] = old[:count]  # no more than these: what isn't written takes no memory
+
+    def _begin_at(self, first: int) -> None:
+        """Have the columns begin at this row of the room."""
+        self._first = first
         (
             self._ids,
             self._states,
@@ -295,8 +329,4 @@ class Replay:
             self._trainers,
             self._targets,
             self._keypoints,
-        ) = (_doubled(column) for column in self._columns())
-
-
-def _doubled(column: NDArray[Any]) -> NDArray[Any]:
-    return np.concatenate([column, np.zeros_like(column)])
+        ) = (column[first:] for column in self._room)

@@ -95,6 +95,8 @@ class Seed:
         self.pause: Callable[[], None] = no_pause
         self.policy_version = 0
         self.last_label_id = 0
+        self._heard = 0
+        """`last_label_id` at the last `restore`: labels up to it owe no updates."""
 
     @property
     def owed_updates(self) -> int:
@@ -175,8 +177,17 @@ class Seed:
         """
         self._replay.clear()
         self._forgotten.clear()
-        self._remember([label for label in labels if label.id <= self.last_label_id])
-        self.add([label for label in labels if label.id > self.last_label_id])
+        self._heard = self.last_label_id
+        self.recollect(labels)
+
+    def recollect(self, labels: Sequence[Label]) -> None:
+        """Implements `agent.algorithm.Recollecting`: older labels come in front of those held, at little cost.
+
+        Raises:
+            AgentError: a label doesn't fit the task. None of those that owe no updates was taken.
+        """
+        self._remember([label for label in labels if label.id <= self._heard])
+        self.add([label for label in labels if label.id > self._heard])
 
     def forget(self, label_id: int) -> None:
         """Take an undone label out of the replay; unknown ids are ignored."""

@@ -19,6 +19,7 @@ from server.attendance import Attendance
 from server.crew_values import Idea, Saved
 from server.learning import checkpoint_folder, checkpoint_name, checkpoint_path, configuration
 from server.post import DEATH_WINDOW, QUICK, OnChange, Post
+from server.recollection import Recollection, wire
 from server.robots import OnFrame, OnTold, Robot, Stops
 from server.schemas import Experiment
 from server.settings import Settings
@@ -30,12 +31,6 @@ log = logging.getLogger(__name__)
 
 DEATHS = 3
 """More deaths of one worker than this within `DEATH_WINDOW` seconds, and the experiment has failed."""
-
-
-LABELS_AT_ONCE = 2_000
-"""Labels of one message to the learner, about 1 MB: a longer one would hold up everything else in this process."""
-A_LABEL = 0.001
-"""s that taking a stored label may last on a busy machine; measured: 0.064 ms of the processor."""
 
 
 class TooManyDeaths(WorkerError):
@@ -77,6 +72,7 @@ class Crew:
         )
         self.learner = Post("learner", self._catch_up, on_change)
         self._posts = {post.name: post for post in (*(robot.post for robot in self.robots), self.learner)}
+        self.recollection = Recollection(experiment, store, settings.learner_deadline)
         self._together: list[StoredLabel] | None = None
         self._missed: list[StoredLabel] = []
         self._forgotten: list[int] = []
@@ -127,6 +123,7 @@ class Crew:
 
     async def close(self) -> None:
         """End all workers."""
+        await self.recollection.close()
         await asyncio.gather(*(post.clear() for post in self._posts.values()))
 
     async def distrust(self, error: Exception) -> None:
@@ -174,7 +171,7 @@ class Crew:
         if self._together is not None:
             self._together += labels
         elif labels:
-            self._tell_learner("add", self._missed, labels, labels=[_wire(label) for label in labels])
+            self._tell_learner("add", self._missed, labels, labels=[wire(label) for label in labels])
 
     @contextmanager
     def together(self) -> Iterator[None]:
@@ -188,6 +185,7 @@ class Crew:
 
     def forget(self, feedback_id: int) -> None:
         """Take an undone label back."""
+        self.recollection.forget(feedback_id)
         if self._together is not None:
             self._together = [label for label in self._together if label.feedback_id != feedback_id]
         self._tell_learner("forget", self._forgotten, [feedback_id], feedback_id=feedback_id)
@@ -200,7 +198,7 @@ class Crew:
         if self._together is not None and any(held.feedback_id == feedback_id for held in self._together):
             self._together = [label if held.feedback_id == feedback_id else held for held in self._together]
             return
-        self._tell_learner("relabel", self._corrected, [label], label=_wire(label))
+        self._tell_learner("relabel", self._corrected, [label], label=wire(label))
 
     async def propose(self, state: tuple[float, ...], *, deterministic: bool = False) -> Idea:
         """Suggest a call for this state."""
@@ -246,29 +244,25 @@ class Crew:
         self._missed.clear()
         self._forgotten.clear()
         self._corrected.clear()
-        await learner.call(
+        configured = await learner.call(
             "configure",
             deadline=deadline,
             **configuration(experiment, self._settings, lockstep=experiment.lockstep),
         )
         await self._load_newest(learner)
-        newest, sent, more = 0, 0, True
-        while more:
-            part = await self._store.labels(experiment.id, newest, LABELS_AT_ONCE)
-            newest, sent, more = part[-1].feedback_id if part else newest, sent + len(part), bool(part)
-            patience = deadline + (0.0 if more else sent * A_LABEL)  # it takes them at the last part
-            restored = await learner.call("restore", deadline=patience, labels=[_wire(one) for one in part], more=more)
+        newest_first = configured["recollects"] and not experiment.lockstep
+        restored = await self.recollection.restore(learner, newest_first=newest_first)
         self.policy_version = restored["policy_version"]
         # what came while this went on; the learner knows an id that it has seen
         while self._missed or self._forgotten or self._corrected:
             missed, self._missed = self._missed, []
             forgotten, self._forgotten = self._forgotten, []
             corrected, self._corrected = self._corrected, []
-            await learner.call("add", deadline=deadline, labels=[_wire(label) for label in missed])
+            await learner.call("add", deadline=deadline, labels=[wire(label) for label in missed])
             for feedback_id in forgotten:
                 await learner.call("forget", deadline=deadline, feedback_id=feedback_id)
             for label in corrected:
-                await learner.call("relabel", deadline=deadline, label=_wire(label))
+                await learner.call("relabel", deadline=deadline, label=wire(label))
 
     async def _load_newest(self, learner: Worker) -> None:
         """Load the newest checkpoint; without a sound one the labels alone rebuild the learner."""
@@ -319,14 +313,3 @@ def _idea(told: Mapping[str, Any], policy_version: int) -> Idea:
         policy_version=policy_version,
         uncertainty=told["uncertainty"],
     )
-
-
-def _wire(label: StoredLabel) -> dict[str, Any]:
-    return {
-        "id": label.feedback_id,
-        "state": list(label.state),
-        "skill": label.skill,
-        "parameters": list(label.parameters),
-        "value": label.value,
-        "trainer": label.trainer,
-    }

@@ -64,7 +64,8 @@ class Runner:
             on_told=self._publish,
             attendance=self.attendance,
         )
-        self.standing = Standing(experiment, store, publish=self._publish, halted=lambda: self.crew.halted)
+        self.standing = Standing(experiment, store, self.crew, publish=self._publish)
+        self.crew.recollection.on_progress = self.standing.tell
         self._ledger = Ledger(
             experiment,
             store,

@@ -12,7 +12,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, StrictInt
 
 from server.schemas_incidents import Report, Violation
-from server.schemas_labels import Answer, ClickId, EstimateShown, Relabel, TrainerName, label_of
+from server.schemas_labels import Answer, CatchingUp, ClickId, EstimateShown, Relabel, TrainerName, label_of
 from server.schemas_listing import Tags
 from server.schemas_quality import GoldRate, PracticeRequired
 from server.schemas_together import Judge, Looked, Together, TogetherUpdate
@@ -175,6 +175,9 @@ class Experiment(Wire):
     phase: Phase
     halted: bool
     failure: Annotated[str | None, Field(description="why it failed, with the remedy")] = None
+    catching_up: Annotated[
+        CatchingUp | None, Field(description="while a learner that has started anew takes the stored labels")
+    ] = None
     auto_approval: AutoApproval | None = None
     auto_approval_suspended: Suspended = None
     gold_rate: float = 0.0

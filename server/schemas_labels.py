@@ -19,6 +19,13 @@ def _plain(value: object) -> object:
     return None if isinstance(value, bool | float) else value
 
 
+class CatchingUp(_Wire):
+    """How far a learner that has started anew is with the stored labels. It may propose before it has them all."""
+
+    taken: int
+    of: int
+
+
 Answer = Annotated[
     Literal[-1, 0, 1, "cant_tell"],
     BeforeValidator(_plain),

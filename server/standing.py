@@ -6,6 +6,7 @@ import contextlib
 from collections.abc import Callable
 
 from server import lifecycle
+from server.crew import Crew
 from server.messages import ExperimentChanged, StreamEvent
 from server.owed import Owed
 from server.schemas import Experiment, Lifecycle, Phase
@@ -32,14 +33,14 @@ class Standing:
         self,
         experiment: Experiment,
         store: Store,
+        crew: Crew,
         *,
         publish: Callable[[StreamEvent], None],
-        halted: Callable[[], bool],
     ) -> None:
         self._stored = experiment
         self._store = store
         self._publish = publish
-        self._halted = halted
+        self._crew = crew
         self._failure: str | None = None
         self._phases = [experiment.phase] * experiment.num_envs
         self.owed = Owed(experiment.id)
@@ -60,9 +61,9 @@ class Standing:
 
     def live(self, stored: Experiment) -> Experiment:
         """A stored state, with what the store doesn't know."""
-        now: dict[str, object] = {"phase": self.phase}
+        now: dict[str, object] = {"phase": self.phase, "catching_up": self._crew.recollection.progress}
         ran = stored.lifecycle is Lifecycle.RUNNING
-        if self._halted():
+        if self._crew.halted:
             now |= {"halted": True} | ({"lifecycle": Lifecycle.PAUSED} if ran else {})
         if self._failure is not None and ran:
             now |= {"lifecycle": Lifecycle.FAILED, "failure": self._failure}
@@ -90,7 +91,7 @@ class Standing:
         Raises:
             Conflict: one is.
         """
-        if self._halted():
+        if self._crew.halted:
             state = lifecycle.State(self.experiment.lifecycle, halted=True)
             raise Conflict(
                 f"can't {verb} while the emergency stop is latched",
@@ -117,7 +118,7 @@ class Standing:
                 self.tell()
 
     async def _store_halt(self) -> None:
-        if self._halted():  # else it was re-armed, and that is stored
+        if self._crew.halted:  # else it was re-armed, and that is stored
             self.changed(await self._store.halt(self._stored.id))
 
     async def _store_failure(self) -> None:

@@ -19,6 +19,14 @@ def labels(session: Session, experiment_id: int, after_id: int = 0, limit: int |
     return _labels(session, FeedbackRow.experiment_id == experiment_id, FeedbackRow.id > after_id, limit=limit)
 
 
+def labels_before(session: Session, experiment_id: int, before_id: int | None, limit: int) -> list[StoredLabel]:
+    """The newest of those, by id; older than that one. No more than `limit`."""
+    where = [FeedbackRow.experiment_id == experiment_id]
+    if before_id is not None:
+        where.append(FeedbackRow.id < before_id)
+    return _labels(session, *where, limit=limit, newest=True)[::-1]
+
+
 def labels_of(session: Session, proposal_id: int) -> list[StoredLabel]:
     """What the learner trains from this proposal."""
     return _labels(session, FeedbackRow.proposal_id == proposal_id)
@@ -94,7 +102,9 @@ def _must_be_correctable(row: FeedbackRow, proposal: ProposalRow, by: str, *, an
         )
 
 
-def _labels(session: Session, *where: ColumnElement[bool], limit: int | None = None) -> list[StoredLabel]:
+def _labels(
+    session: Session, *where: ColumnElement[bool], limit: int | None = None, newest: bool = False
+) -> list[StoredLabel]:
     corrector = (
         select(RelabelRow.trainer_id)
         .where(RelabelRow.feedback_id == FeedbackRow.id)
@@ -119,7 +129,7 @@ def _labels(session: Session, *where: ColumnElement[bool], limit: int | None = N
             # and what was said of a proposal before another one was approved, or just after, is as true as ever
             or_(ProposalRow.verdict.is_not(None), ProposalRow.close_reason.in_(("cant_tell", "superseded"))),
         )
-        .order_by(FeedbackRow.id)
+        .order_by(FeedbackRow.id.desc() if newest else FeedbackRow.id)
         .limit(limit)
     )
     return [

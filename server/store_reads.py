@@ -160,6 +160,10 @@ class Reads:
         """What the learner trains from, ascending by feedback id: the first `limit` after that one."""
         return await self._database.read(lambda s: store_labels.labels(s, experiment_id, after_id, limit))
 
+    async def labels_before(self, experiment_id: int, before_id: int | None, limit: int) -> list[StoredLabel]:
+        """What the learner trains from, ascending by feedback id: the last `limit` before that one, or of all."""
+        return await self._database.read(lambda s: store_labels.labels_before(s, experiment_id, before_id, limit))
+
     async def calibration(self, experiment_id: int, newest: int) -> Calibration:
         """The critic's reliability curve over its newest judged proposals."""
         return await self._database.read(lambda s: store_trust.calibration(s, experiment_id, newest))

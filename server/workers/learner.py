@@ -29,6 +29,7 @@ from agent.algorithm import (
     Label,
     Pausing,
     Problem,
+    Recollecting,
     Suggestion,
 )
 from agent.batching import propose_batch
@@ -122,7 +123,7 @@ class Learner:
         self._algorithm = built
         if isinstance(self._algorithm, Pausing) and not lockstep:
             self._algorithm.pause = self.meanwhile
-        return self._status()
+        return {"recollects": isinstance(built, Recollecting)} | self._status()
 
     def propose(self, *, state: list[float], deterministic: bool) -> dict[str, Any]:
         """Suggest a call."""
@@ -162,6 +163,14 @@ class Learner:
         else:
             self._starved = False
             self.algorithm.restore(arrived)
+        return self._status()
+
+    def recollect(self, *, labels: list[dict[str, Any]]) -> dict[str, Any]:
+        """After `restore`, take older labels; only algorithms that said so at `configure` can."""
+        algorithm = self.algorithm
+        if not isinstance(algorithm, Recollecting):
+            raise Refusal("this algorithm takes all labels at once", remedy="send them by `restore`")
+        algorithm.recollect(self._labels(labels))
         return self._status()
 
     def forget(self, *, feedback_id: int) -> dict[str, Any]:
@@ -219,7 +228,7 @@ def serve(pipes: Pipes) -> None:
     """Answer requests until the server is gone; take gradient steps in between."""
     learner = Learner()
     answering = ("configure", "propose", "propose_batch", "estimate", "flush", "save", "load")
-    names = (*answering, "add", "restore", "forget", "relabel")
+    names = (*answering, "add", "restore", "recollect", "forget", "relabel")
     handlers = {name: getattr(learner, name) for name in names}
     commands = pipes.commands
     flushes: list[Mapping[str, Any]] = []

@@ -141,3 +141,39 @@ def test_it_depends_on_the_labels_held_only(steps: list[tuple[int, int, bool]], 
         assert skill == expected.skill
         np.testing.assert_array_equal(parameters, expected.parameters)
         assert target == np.float32(expected.target)
+
+
+@given(st.permutations(range(6)), st.lists(VALUES, min_size=30, max_size=30))
+@settings(max_examples=30, deadline=None)
+def test_parts_may_come_in_any_order_also_from_the_newest_back(order: list[int], values: list[int]) -> None:
+    whole, in_parts = filled(*values), Replay(2, 4)
+    for part in order:
+        some = in_parts.empty()
+        for label_id in range(5 * part + 1, 5 * part + 6):
+            some.add(entry(label_id, values[label_id - 1]))
+        in_parts.take(some)
+    for replay in (whole, in_parts):
+        replay.forget(3)
+        replay.add(entry(31, 1))
+    ours, theirs = (replay.sample(64, np.random.default_rng(0)) for replay in (whole, in_parts))
+    assert in_parts.counts() == whole.counts()
+    np.testing.assert_array_equal(ours.states, theirs.states)
+    np.testing.assert_array_equal(ours.targets, theirs.targets)
+
+
+def test_thousands_of_older_labels_find_room_and_the_newer_stay() -> None:
+    replay, count = Replay(2, 4), 4 * INITIAL_CAPACITY
+    for first in range(count - 500, -1, -500):
+        some = replay.empty()
+        for label_id in range(first + 1, first + 501):
+            some.add(entry(label_id, 1 if label_id % 2 else -1))
+        replay.take(some)
+    assert replay.counts()[1] == replay.counts()[-1] == len(replay) / 2
+    assert len(replay) == count // 500 * 500
+    np.testing.assert_array_equal(replay.good().states[-1], np.full(2, count - 1 - count % 2))
+    newer = replay.empty()
+    for label_id in range(count + 1, 3 * count + 1):
+        newer.add(entry(label_id, -1))
+    replay.take(newer)
+    assert len(replay) == count // 500 * 500 + 2 * count
+    np.testing.assert_array_equal(replay.bad().states[-1], np.full(2, 3 * count))

@@ -41,6 +41,10 @@ class Candid(Scripted):
         self._held.clear()
         self.add(labels)
 
+    def recollect(self, labels: Sequence[Label]) -> None:
+        """Hold these too, as far as they aren't held."""
+        self.add([label for label in labels if label.id not in self._held])
+
     def forget(self, label_id: int) -> None:
         """Hold one less."""
         self._held.pop(label_id, None)

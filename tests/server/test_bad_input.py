@@ -45,7 +45,7 @@ async def test_a_state_with_a_hole_fails_by_name_and_goes_on_once_it_is_seen(tmp
 async def test_a_checkpoint_of_another_task_is_told_and_the_labels_rebuild_the_learner(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("server.crew.LABELS_AT_ONCE", 1)  # as a million come, in parts
+    monkeypatch.setattr("server.recollection.LABELS_AT_ONCE", 1)  # as a million come, in parts
     async with stage(tmp_path) as s:
         experiment = await s.experiment(teacher="synthetic")
         await s.hub.act(experiment.id, "start", until=2)

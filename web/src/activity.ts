@@ -1,9 +1,11 @@
 // What is going on now, in words.
 import { skillName, t } from "./i18n";
+import { whole } from "./i18n/numbers";
 import { ME, may } from "./me";
 import { isOpen } from "./robots";
 import { chosenFor, pendingFor, wordFor } from "./selectors";
 import type { TrainerState } from "./state";
+import type { Experiment } from "./wire";
 
 export interface Activity {
   tone: "you" | "moving" | "busy" | "still" | "stopped";
@@ -60,7 +62,7 @@ function running(state: TrainerState, drawn: boolean): Activity {
   if (proposal && isOpen(proposal) && proposal.purpose !== "evaluation") return waiting(state, drawn);
   switch (experiment?.phase) {
     case "starting":
-      return busy(t("activity.starting"));
+      return busy(catchingUp(experiment.catching_up) ?? t("activity.starting"));
     case "learning":
       return busy(t("activity.learning"));
     case "deciding":
@@ -72,6 +74,11 @@ function running(state: TrainerState, drawn: boolean): Activity {
     default:
       return busy(t("activity.busy"));
   }
+}
+
+/** How far a learner that has started anew is with many stored labels; null where it has them all. */
+export function catchingUp(progress: Experiment["catching_up"]): string | null {
+  return progress ? t("activity.catchingUp", { taken: whole(progress.taken), of: whole(progress.of) }) : null;
 }
 
 function waiting(state: TrainerState, drawn: boolean): Activity {

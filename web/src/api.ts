@@ -2411,6 +2411,16 @@ export interface components {
             label: number;
         };
         /**
+         * CatchingUp
+         * @description How far a learner that has started anew is with the stored labels. It may propose before it has them all.
+         */
+        CatchingUp: {
+            /** Taken */
+            taken: number;
+            /** Of */
+            of: number;
+        };
+        /**
          * Chart
          * @description Lines that belong into one picture.
          */
@@ -3132,6 +3142,8 @@ export interface components {
              * @description why it failed, with the remedy
              */
             failure: string | null;
+            /** @description while a learner that has started anew takes the stored labels */
+            catching_up: components["schemas"]["CatchingUp"] | null;
             auto_approval: components["schemas"]["AutoApproval"] | null;
             /**
              * Auto Approval Suspended

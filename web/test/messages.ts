@@ -25,6 +25,7 @@ export function experiment(change: Partial<Experiment> = {}): Experiment {
     phase: "awaiting_feedback",
     halted: false,
     failure: null,
+    catching_up: null,
     counters: {
       feedback: 0,
       good: 0,

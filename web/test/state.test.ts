@@ -245,6 +245,14 @@ describe("what is going on", () => {
       having(snapshot({ experiment: experiment({ phase: "starting" }) })),
     ],
     [
+      "The learner takes the stored labels back: 4,000 of 1,000,000",
+      having(
+        snapshot({
+          experiment: experiment({ phase: "starting", catching_up: { taken: 4000, of: 1_000_000 } }),
+        }),
+      ),
+    ],
+    [
       "Paused. Nothing moves.",
       having(snapshot({ experiment: experiment({ lifecycle: "paused", phase: "idle" }) })),
     ],

@@ -1,5 +1,6 @@
 // What stands beside the views: counters, what the agent thinks, mode, evaluation.
 
+import { catchingUp } from "../activity";
 import { t } from "../i18n";
 import type { Pace } from "../pace";
 import type { Session } from "../session";
@@ -43,6 +44,7 @@ export function SidePanel(props: SidePanelProps) {
   const { state, experiment, proposal, session, onAsk, task } = props;
   const simulated = props.simulated ?? false; // unknown counts as no
   const { scene } = useSettings();
+  const recalled = catchingUp(experiment.catching_up);
   const changeMode = (mode: Mode) => {
     if (mode === "propose_only") void session.setMode(mode);
     else
@@ -61,6 +63,11 @@ export function SidePanel(props: SidePanelProps) {
       <Thought proposal={proposal} />
       <OwnPace id={experiment.id} feedback={experiment.counters.feedback} pace={props.pace} />
       <Counters counters={experiment.counters} />
+      {recalled && (
+        <p className="note" data-testid="catching-up">
+          {recalled}
+        </p>
+      )}
       <OperatorPanel
         state={state}
         experiment={experiment}
