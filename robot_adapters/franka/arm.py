@@ -26,6 +26,8 @@ HOMING_PATIENCE = 30.0
 """s of the robot's clock for the way to the joints of home."""
 HOMING_LIFT = 0.15
 """m above the table from which the way home is free."""
+RISING_LIMIT = 200
+"""Set-points, 10 s at 20 Hz, for the way up from the table."""
 HOME_NEAR = 0.02
 """rad of each joint that count as being there."""
 TRIM_RATE = 1.5
@@ -157,16 +159,28 @@ class FrankaArm:
         self._pacer = None
         self.backend.halt()
 
+    def rise(self, height: float) -> bool:
+        """Straight up to so many m above the table, if it is lower; False if it was stopped, or held back, on the way.
+
+        Raises:
+            ArmFault, Refused: as `step`.
+        """
+        free = self._limits.table + height
+        here = self._state.position[:2].copy()
+        for _ in range(RISING_LIMIT):
+            if self._state.position[2] >= free - 0.005:
+                return True
+            self.step(np.array([*here, free]) - self._offset, self._state.yaw, self._closed)
+            if self.should_stop() or self._overload is not None:
+                return False
+        return False
+
     def home(self) -> bool:
         """Straight up where it is low, then slowly to the joints of home; False if it was stopped on the way."""
         state = self.look()
         self._must_be_well(state)
-        free = self._limits.table + HOMING_LIFT
-        while self._state.position[2] < free - 0.005:
-            up = np.array([*self._state.position[:2], free]) - self._offset
-            self.step(up, self._state.yaw, self._closed)
-            if self.should_stop():
-                return False
+        if not self.rise(HOMING_LIFT):
+            return False
         self.end()
         self.backend.start_joints(READY)
         self._wait(lambda _: self.backend.joints_arrived(), HOMING_PATIENCE, "the arm doesn't come home")

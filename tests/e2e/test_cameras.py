@@ -1,4 +1,4 @@
-"""A lab with two live cameras and an arm without physics is calibrated in a browser.
+"""A lab with two live cameras and an arm without physics: calibrated in a browser, then judged by what they see.
 
 The pictures are rendered and come over the network as an OpenCV device's; the arm is a Deoxys peer of our own.
 """
@@ -6,7 +6,7 @@ The pictures are rendered and come over the network as an OpenCV device's; the a
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +14,7 @@ import pytest
 from playwright.sync_api import Page, ViewportSize, expect
 
 from tests.e2e.trainer import START_MS, Opener
-from tests.live import LiveService
+from tests.live import LiveService, wait_for
 from tests.robot_adapters.franka.conftest import APART
 from tests.robot_adapters.franka.perception.broadcasting import Lab
 from tests.robot_adapters.franka.perception.poses import as_told, facing, hand
@@ -94,3 +94,48 @@ def test_cameras_are_calibrated_by_clicks_also_over_a_reload_and_on_a_phone(
     state = trainer.stored(trainer.drawn())["state"]
     truth = np.concatenate([lab.arm.blocks["block_a"], lab.arm.blocks["block_b"]])
     assert np.abs(np.array(state) - truth).max() < 0.006
+
+
+def test_a_trainer_stacks_by_what_the_cameras_see_and_reads_what_they_dont(
+    opener: Opener, lab: Lab, service: LiveService, tmp_path: Path
+) -> None:
+    lab.calibrate(tmp_path)
+    trainer = opener(adapter="franka", adapter_settings=lab.settings(tmp_path), start=False)
+    service.http.patch(f"/api/v1{trainer.path}", json={"mode": "execute_approved"})
+    trainer.test_id("start").click()
+    first = trainer.drawn()
+    assert {view["camera"] for view in trainer.stored(first)["views"]} == set(BOTH)
+    trainer.test_id("operator").locator("summary").first.click()
+    trainer.test_id("attend").check()
+    expect(trainer.test_id("attended-by")).to_contain_text("attends the robot")
+    trainer.press(1)
+    second = trainer.drawn(first)
+    seen = trainer.stored(second)
+    assert seen["skill"] == "place", "the eyes must have seen, or known, the block in the hand"
+    assert np.abs(np.array(seen["state"][:3]) - lab.arm.blocks["block_a"]).max() < 0.02
+
+    lab.move("block_b", lab.arm.blocks["block_b"] + np.array([0.0, 0.03, 0.0]))
+    wait_for(lambda: lab.shown, "the cameras to see it", 60)
+    trainer.press(1)
+    third = trainer.drawn(second)  # it isn't put where the other block was
+    refused = service.get(f"{trainer.path}/executions?limit=1")["items"][0]
+    assert refused["outcome"] == "failed"
+    assert "block_b was moved by 30 mm" in refused["end_reason"]
+    expect(trainer.page.get_by_text("was moved by 30 mm since the picture was taken").first).to_be_visible()
+    assert lab.arm.held == "block_a"
+    trainer.press(1)
+    wait_for(lambda: service.get(trainer.path)["lifecycle"] == "paused", "the end of the episode", 90)
+    last = service.get(f"{trainer.path}/executions?limit=1")["items"][0]
+    assert (last["proposal_id"], last["outcome"], last["task_success"]) == (third, "succeeded", True)
+
+    troubles: list[tuple[Callable[[], None], str]] = [
+        (lambda: lab.hide("block_a"), "block_a: not seen for"),
+        (lambda: lab.push("left", np.array([0.0, 0.02, 0.0])), "camera left has moved since it was calibrated"),
+    ]
+    for trouble, told in troubles:
+        lab.hide()
+        trouble()
+        wait_for(lambda: lab.shown, "the cameras to see it", 60)
+        trainer.test_id("resume").click()
+        expect(trainer.page.get_by_text(told).first).to_be_visible(timeout=START_MS)
+        wait_for(lambda: service.get(trainer.path)["lifecycle"] == "failed", "nothing to be proposed")
