@@ -172,6 +172,18 @@ class Recollecting(Protocol):
         """After `restore`, take others, older or newer: as if `restore` had been given them too."""
 
 
+@runtime_checkable
+class Considering(Estimating, Protocol):
+    """An algorithm that also tells what it would do with each skill."""
+
+    def consider(self, state: Array) -> list[SkillCall]:
+        """(n,) state -> a call of each skill, the one that its actor thinks likeliest. Changes and draws nothing.
+
+        Raises:
+            AgentError: the state doesn't fit the task.
+        """
+
+
 class AlgorithmFactory(Protocol):
     """What an entry point of the group `seed.algorithms` names."""
 

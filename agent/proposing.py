@@ -42,6 +42,25 @@ def estimate(networks: Networks, state: Float32, keypoints: Float32, *, skills: 
 
 
 @torch.inference_mode()
+def likeliest(networks: Networks, state: Float32, keypoints: Float32) -> list[Array]:
+    """For each skill (P,) in [-1, 1], padded with 0: the middle of its actor, of the likeliest where it has several.
+
+    state: (n,) scaled. keypoints: (K, M, 3) m, empty where the networks know none. Draws nothing.
+    """
+    states = torch.from_numpy(state).unsqueeze(0)
+    here = torch.from_numpy(keypoints).unsqueeze(0)
+    chances = networks.skill_log_probabilities(states)[0]
+    mean, _ = networks.parameter_distributions(states)
+    parameters = networks.decode(torch.tanh(mean), here)[:, 0].clamp(-1.0, 1.0) * networks.mask[:, 0]
+    found = []
+    for skill in range(networks.layout.skills):
+        own = networks.option_skill == skill
+        option = int(torch.where(own, chances, -torch.inf).argmax())
+        found.append(parameters[option].numpy().astype(np.float64))
+    return found
+
+
+@torch.inference_mode()
 def choose(
     networks: Networks, state: Float32, keypoints: Float32, generator: torch.Generator, *, deterministic: bool
 ) -> Choice:

@@ -25,7 +25,7 @@ from agent.encoding import Encoder
 from agent.grounding import grounding
 from agent.kernels import no_pause
 from agent.networks import Layout, Networks, dice
-from agent.proposing import Choice, choose, estimate
+from agent.proposing import Choice, choose, estimate, likeliest
 from agent.replay import Batch, Replay
 from agent.symmetry import symmetries
 from agent.training import Objective, Trainer
@@ -154,6 +154,16 @@ class Seed:
         scaled, keypoints = self._encoder.state(state), self._encoder.keypoints(state)
         skills, parameters = self._encoder.calls(calls)
         return estimate(self._networks, scaled, keypoints, skills=skills, parameters=parameters)
+
+    def consider(self, state: Array) -> list[SkillCall]:
+        """(n,) state -> a call of each skill, the one that its actor thinks likeliest; nothing changes or is drawn.
+
+        Raises:
+            AgentError: the state doesn't fit the task.
+        """
+        scaled, keypoints = self._encoder.state(state), self._encoder.keypoints(state)
+        found = likeliest(self._networks, scaled, keypoints)
+        return [self._encoder.call(skill, parameters) for skill, parameters in enumerate(found)]
 
     def add(self, labels: Sequence[Label]) -> None:
         """Take labels into the replay and owe their gradient steps. Each is taken once.

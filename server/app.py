@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import gzip
 import secrets
 from collections.abc import AsyncIterator
+from functools import lru_cache
 from importlib.metadata import version
 from pathlib import Path
 
@@ -106,6 +108,10 @@ def create_app(settings: Settings | None = None, service: Service | None = None)
     return app
 
 
+COMPRESSED = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
+"""Suffixes of the page's files that compressing makes smaller, and their media types."""
+
+
 def _add_probes(app: FastAPI) -> None:
     @app.get("/health", tags=["probes"])
     async def health() -> Health:
@@ -139,13 +145,13 @@ def _add_page(app: FastAPI, settings: Settings) -> None:
     register_url_convertor("page", _PagePath())
 
     @app.api_route("/{path:page}", methods=["GET", "HEAD"], include_in_schema=False)
-    async def page(path: str) -> Response:
+    async def page(path: str, request: Request) -> Response:
         """A file of the built page; an address without a suffix is one of the page's own (SPA)."""
         file = None if path == "index.html" else _static(path)
         if file is not None:
             # Vite names what it builds by content hash
             cache = "public, max-age=31536000, immutable" if path.startswith("assets/") else "no-cache"
-            return FileResponse(file, headers={"Cache-Control": cache})
+            return await _file(file, {"Cache-Control": cache, "Vary": "Accept-Encoding"}, request)
         index = _static("index.html")
         if index is None:
             return HTMLResponse(NOT_BUILT, 503)
@@ -155,6 +161,20 @@ def _add_page(app: FastAPI, settings: Settings) -> None:
         base = f'<head>\n    <base href="{settings.root_path}/" />'
         text = (await asyncio.to_thread(index.read_text, "utf-8")).replace("<head>", base, 1)
         return HTMLResponse(text, headers={"Cache-Control": "no-cache"})
+
+
+async def _file(file: Path, headers: dict[str, str], request: Request) -> Response:
+    """A file of the page, compressed for whoever takes it so: scripts and styles shrink to a third."""
+    if file.suffix not in COMPRESSED or "gzip" not in request.headers.get("accept-encoding", ""):
+        return FileResponse(file, headers=headers)
+    packed = await asyncio.to_thread(_packed, file, file.stat().st_mtime_ns)
+    return Response(packed, media_type=COMPRESSED[file.suffix], headers=headers | {"Content-Encoding": "gzip"})
+
+
+@lru_cache(maxsize=64)
+def _packed(file: Path, _: int) -> bytes:
+    """Packed once; of a newer build, anew."""
+    return gzip.compress(file.read_bytes(), mtime=0)
 
 
 def _static(path: str) -> Path | None:

@@ -16,18 +16,19 @@ from typing import Any
 import numpy as np
 
 from robot_adapters import registry
-from robot_adapters.base import SkillSpec
+from robot_adapters.base import SkillCall, SkillSpec
 from robot_adapters.tasks.base import Task
 from server import store_critic
 from server.errors import invalid
 from server.hub import Hub
 from server.learning import checkpoint_path, configuration
 from server.schemas import Experiment, Proposal
-from server.schemas_critic import CriticMap
+from server.schemas_critic import Considered, ConsideredList, CriticMap
 from server.schemas_problems import FieldProblem
+from server.schemas_views import Overlay
 from server.settings import Settings
 from server.store import Conflict, Store
-from server.worker import CommandFailed, Worker, WorkerDied
+from server.worker import CommandFailed, Worker, WorkerDied, WorkerError
 
 LINGER = 60.0
 """Seconds that a process which nobody asks stays: loading torch and a checkpoint takes some."""
@@ -65,7 +66,7 @@ class Critics:
         x, y = _axes(spec, points)
         names = [p.name for p in spec.parameters]
         calls = [[{**held, "x": at, "y": up}[name] for name in names] for up in y for at in x]
-        told, source = await self._ask(experiment, state=proposal.state, skill=spec.name, calls=calls)
+        told, source = await self._ask(experiment, "estimate", state=proposal.state, skill=spec.name, calls=calls)
         labels = await self._store.read(lambda s: store_critic.nearby(s, proposal_id, spec.name))
         keypoints = np.asarray(task.keypoints(np.array(proposal.state), spec.name), dtype=float).reshape(-1, 3)
         return CriticMap(
@@ -82,6 +83,36 @@ class Critics:
             source="learner" if source else "checkpoint",
         )
 
+    async def consider(self, proposal_id: int) -> ConsideredList:
+        """What the agent would do with each skill in the situation of this proposal; the proposal itself as it is.
+
+        Raises:
+            NotFound: no such proposal. Conflict: nothing was learned yet, or the algorithm can't be asked.
+        """
+        proposal = await self._store.proposal(proposal_id)
+        experiment = await self._store.experiment(proposal.experiment_id)
+        told, _ = await self._ask(experiment, "consider", state=proposal.state)
+        names = {spec.name: [p.name for p in spec.parameters] for spec in registry.task(experiment.task).skills}
+        items = []
+        for each in told["calls"]:
+            skill, parameters = each["skill"], each["parameters"]
+            own = skill == proposal.skill
+            drawn: Mapping[str, Overlay] = {view.camera: view.overlay for view in proposal.views} if own else {}
+            if not own:
+                drawn = await self._drawn(proposal, SkillCall(skill, tuple(parameters)))
+            items.append(
+                Considered(
+                    skill=skill,
+                    probability=proposal.skill_probabilities.get(skill, 0.0),
+                    parameters=proposal.parameters if own else dict(zip(names[skill], parameters, strict=True)),
+                    predicted_feedback=proposal.predicted_feedback if own else each["predicted_feedback"],
+                    proposed=own,
+                    overlays=dict(drawn),
+                )
+            )
+        items.sort(key=lambda each: -each.probability)
+        return ConsideredList(proposal_id=proposal_id, policy_version=told["policy_version"], items=items)
+
     async def close(self) -> None:
         """End every process."""
         for handle in self._ends.values():
@@ -90,6 +121,19 @@ class Critics:
             self._end(experiment_id)
         if self._closing:
             await asyncio.wait(self._closing)
+
+    async def _drawn(self, proposal: Proposal, call: SkillCall) -> dict[str, Overlay]:
+        """Another call on the pictures of an open proposal; nothing where its robot moves or is away."""
+        runner = self._hub.at_work(proposal.experiment_id)
+        robot = None if runner is None else runner.stations[proposal.robot].resting
+        if robot is None or proposal.closed_at is not None:
+            return {}
+        try:
+            drawn = await robot.overlay(call)
+        except WorkerError:  # its runner tells of it
+            return {}
+        # closed meanwhile: something else may stand before the cameras by now
+        return drawn if (await self._store.proposal(proposal.id)).closed_at is None else {}
 
     async def _held(self, proposal: Proposal, spec: SkillSpec, others: Mapping[str, float]) -> dict[str, float]:
         names = {p.name: p for p in spec.parameters if p.name not in ("x", "y")}
@@ -110,15 +154,16 @@ class Critics:
         middle = {name: (p.low + p.high) / 2 for name, p in names.items()}
         return {name: float(others.get(name, usual.get(name, middle[name]))) for name in names}
 
-    async def _ask(self, experiment: Experiment, **arguments: Any) -> tuple[dict[str, Any], bool]:
+    async def _ask(self, experiment: Experiment, what: str, **arguments: Any) -> tuple[dict[str, Any], bool]:
         """The reply, and whether it is the living learner's."""
         try:
-            if (learner := self._hub.knowing(experiment.id)) is not None:
+            runner = self._hub.at_work(experiment.id)
+            if runner is not None and (learner := runner.crew.knowing) is not None:
                 with contextlib.suppress(WorkerDied):  # then its last checkpoint is the best there is
-                    return await learner.call("estimate", deadline=self._settings.learner_deadline, **arguments), True
+                    return await learner.call(what, deadline=self._settings.learner_deadline, **arguments), True
             async with self._turns[experiment.id]:
                 reader = await self._reader(experiment)
-                return await reader.call("estimate", deadline=self._settings.learner_deadline, **arguments), False
+                return await reader.call(what, deadline=self._settings.learner_deadline, **arguments), False
         except CommandFailed as error:
             if error.kind == "NoEstimates":
                 raise Conflict(f"{experiment.algorithm}: {error}", remedy=error.remedy) from error

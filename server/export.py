@@ -9,10 +9,10 @@ from collections.abc import AsyncIterator, Callable, Iterable, Mapping, Sequence
 from typing import Any, Literal
 
 from sqlalchemy import select
-from sqlalchemy.orm import Session, selectinload
+from sqlalchemy.orm import Session, defer, joinedload, selectinload
 
 from server import store_audit, store_records
-from server.models import FeedbackRow, MetricRow, ProposalRow
+from server.models import EpisodeRow, FeedbackRow, MetricRow, ObservationRow, ProposalRow
 from server.schemas_labels import answer_of
 from server.schemas_people import AuditEntry
 from server.store import Store
@@ -100,7 +100,14 @@ def _reading(experiment_id: int, after: int) -> Callable[[Session], tuple[list[d
     def read(session: Session) -> tuple[list[dict[str, Any]], int]:
         query = (
             select(FeedbackRow, ProposalRow)
-            .options(selectinload(FeedbackRow.relabels))
+            .options(
+                selectinload(FeedbackRow.relabels),
+                # pictures and state are most of a row, and aren't in the table
+                defer(ProposalRow.views),
+                defer(ProposalRow.skill_probabilities),
+                joinedload(ProposalRow.observation).load_only(ObservationRow.uid),
+                joinedload(ProposalRow.episode).load_only(EpisodeRow.number),
+            )
             .join(ProposalRow, ProposalRow.id == FeedbackRow.proposal_id)
             .where(
                 FeedbackRow.experiment_id == experiment_id,

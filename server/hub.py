@@ -33,7 +33,6 @@ from server.schemas_listing import Listing
 from server.seats import Seats
 from server.settings import Settings
 from server.store import Conflict, NotFound, Receipt, Store, StoreError
-from server.worker import Worker
 
 log = logging.getLogger(__name__)
 
@@ -114,10 +113,9 @@ class Hub:
         if runner := self._runners.get(experiment_id):
             await runner.idle()
 
-    def knowing(self, experiment_id: int) -> Worker | None:
-        """The learner of an experiment, if one learns or waits; ask it nothing that changes it."""
-        runner = self._runners.get(experiment_id)
-        return None if runner is None else runner.crew.knowing
+    def at_work(self, experiment_id: int) -> Runner | None:
+        """The runner of an experiment, if it has one; ask its workers nothing that changes them."""
+        return self._runners.get(experiment_id)
 
     def worker_pids(self, experiment_id: int) -> dict[str, int]:
         """Process ids of the experiment's living workers, by role."""

@@ -110,6 +110,7 @@ NEEDS: dict[str, Need] = {
     "list_episodes": VIEWER,
     "get_episode": VIEWER,
     "get_critic_map": VIEWER,
+    "get_considered": VIEWER,
     "list_events": VIEWER,
     "list_evaluations": VIEWER,
     "list_checkpoints": VIEWER,

@@ -8,6 +8,7 @@ from pydantic import Field
 
 from server.schemas import Wire
 from server.schemas_catalogue import Vector
+from server.schemas_views import Overlay
 
 
 class NearbyLabel(Wire):
@@ -20,6 +21,25 @@ class NearbyLabel(Wire):
     value: Literal[-1, 0, 1]
     predicted_feedback: float
     alike: bool
+
+
+class Considered(Wire):
+    """What the agent would do with one skill. Overlays are there while the proposal is open and its robot looks on."""
+
+    skill: str
+    probability: Annotated[float, Field(description="of the skill, when the proposal was made")]
+    parameters: Annotated[dict[str, float], Field(description="m and rad, robot base frame")]
+    predicted_feedback: float
+    proposed: Annotated[bool, Field(description="it is the proposal itself")]
+    overlays: Annotated[dict[str, Overlay], Field(description="by camera, in pixels of the proposal's pictures")]
+
+
+class ConsideredList(Wire):
+    """What the agent would do with each skill in one proposal's situation, the likeliest skill first."""
+
+    proposal_id: int
+    policy_version: Annotated[int, Field(description="gradient steps that the agent had taken when it was asked")]
+    items: list[Considered]
 
 
 class CriticMap(Wire):

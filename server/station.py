@@ -107,6 +107,11 @@ class Station:
         """Whether the robot moves, as far as this process knows."""
         return self._standing.phase_of(self.robot.index) in (Phase.EXECUTING, Phase.EVALUATING)
 
+    @property
+    def resting(self) -> Robot | None:
+        """The robot, unless it moves or is away."""
+        return self.robot if self.robot.post.ready and not self.moving else None
+
     def enter(self, phase: Phase) -> None:
         """Tell everyone what goes on here."""
         self._standing.enter(phase, self.robot.index)

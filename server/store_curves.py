@@ -1,6 +1,7 @@
 """Curves of one experiment by queries: counted and averaged in the database, so that few rows leave it.
 
-Counters only grow, so of their rows some are taken; labels, skills and speed are means over as many buckets.
+Counters only grow, so of their rows some are taken; labels, skills and speed are means over as many buckets. How wide
+a bucket is comes from the experiment's own counters: to count the rows takes as long as to average them.
 """
 
 from __future__ import annotations
@@ -14,7 +15,15 @@ from typing import Any
 from sqlalchemy import ColumnElement, Integer, case, cast, exists, extract, func, select
 from sqlalchemy.orm import Session
 
-from server.models import COUNTING, EvaluationRow, ExecutionRow, FeedbackRow, MetricRow, ProposalRow
+from server.models import (
+    COUNTING,
+    EvaluationRow,
+    ExecutionRow,
+    ExperimentRow,
+    FeedbackRow,
+    MetricRow,
+    ProposalRow,
+)
 from server.schemas_curves import Chart, Curve, Curves, Measure
 from server.store_experiments import load
 
@@ -39,9 +48,9 @@ ELSEWHERE = frozenset({"predicted_feedback", "label", "good_share", "violations"
 
 def curves(session: Session, experiment_id: int, points: int) -> Curves:
     """Every chart that there is something for; at most about `points` points a curve."""
-    load(session, experiment_id)
+    experiment = load(session, experiment_id)
     sampled = _sampled(session, experiment_id, points)
-    buckets = _labels(session, experiment_id, points)
+    buckets = _labels(session, experiment, points)
     charts = [
         _of_metrics("successes", sampled, COUNTED["successes"]),
         _success_rate(session, experiment_id),
@@ -53,8 +62,8 @@ def curves(session: Session, experiment_id: int, points: int) -> Curves:
         _of_metrics("temperatures", sampled, GROUPED["temperatures"]),
         _of_metrics("entropies", sampled, GROUPED["entropies"]),
         _of_metrics("actor_losses", sampled, GROUPED["actor_losses"]),
-        _skills(session, experiment_id, points),
-        _throughput(session, experiment_id, points),
+        _skills(session, experiment, points),
+        _throughput(session, experiment, points),
         *_others(sampled),
     ]
     feedback = max((row.feedback for row in sampled), default=0)
@@ -66,7 +75,7 @@ def measured(session: Session, experiment_id: int, measure: Measure, points: int
     if measure == "success_rate":
         return _success_rate(session, experiment_id)
     if measure == "estimate_error":
-        return _estimate_error(_labels(session, experiment_id, points))
+        return _estimate_error(_labels(session, load(session, experiment_id), points))
     return _of_metrics(measure, _sampled(session, experiment_id, points), [measure])
 
 
@@ -151,7 +160,7 @@ def _others(sampled: Sequence[Any]) -> list[Chart]:
     return [_of_metrics(name, sampled, [name]) for name in names]
 
 
-def _labels(session: Session, experiment_id: int, points: int) -> list[Any]:
+def _labels(session: Session, experiment: ExperimentRow, points: int) -> list[Any]:
     """Means over buckets of successive labels."""
     value = FeedbackRow.label
     label = (
@@ -159,7 +168,7 @@ def _labels(session: Session, experiment_id: int, points: int) -> list[Any]:
         .join(ProposalRow, ProposalRow.id == FeedbackRow.proposal_id)
         .where(
             ProposalRow.purpose == "training",
-            FeedbackRow.experiment_id == experiment_id,
+            FeedbackRow.experiment_id == experiment.id,
             FeedbackRow.status.in_(COUNTING),
             FeedbackRow.undone_at.is_(None),
             value.is_not(None),
@@ -168,8 +177,7 @@ def _labels(session: Session, experiment_id: int, points: int) -> list[Any]:
     )
     number = func.row_number().over(order_by=label.c.id)
     each = select(number.label("n"), label.c.value, label.c.predicted).subquery()
-    total = session.scalar(select(func.count()).select_from(each)) or 0
-    bucket = (each.c.n - 1) // max(LEAST, -(-total // points))
+    bucket = (each.c.n - 1) // max(LEAST, -(-experiment.feedback // points))
     query = (
         select(
             func.max(each.c.n).label("n"),
@@ -181,7 +189,7 @@ def _labels(session: Session, experiment_id: int, points: int) -> list[Any]:
         .group_by(bucket)
         .order_by(bucket)
     )
-    return list(session.execute(query)) if total else []
+    return list(session.execute(query))
 
 
 def _bucketed(buckets: Sequence[Any], column: str, name: str | None = None) -> Curve:
@@ -205,13 +213,12 @@ def _estimate_error(buckets: Sequence[Any]) -> Chart:
     return Chart(name="estimate_error", axis="feedback", curves=found)
 
 
-def _skills(session: Session, experiment_id: int, points: int) -> Chart:
+def _skills(session: Session, experiment: ExperimentRow, points: int) -> Chart:
     """Each skill's share of the proposals, bucket by bucket."""
     row = ProposalRow
-    where = (row.experiment_id == experiment_id, row.purpose == "training")
-    total = session.scalar(select(func.count(row.id)).where(*where)) or 0
+    where = (row.experiment_id == experiment.id, row.purpose == "training")
     numbered = select(row.skill, func.row_number().over(order_by=row.id).label("n")).where(*where).subquery()
-    bucket = (numbered.c.n - 1) // max(LEAST, -(-total // points))
+    bucket = (numbered.c.n - 1) // max(LEAST, -(-experiment.proposals // points))
     query = (
         select(bucket, numbered.c.skill, func.count(), func.max(numbered.c.n))
         .group_by(bucket, numbered.c.skill)
@@ -238,11 +245,11 @@ def _training() -> ColumnElement[bool]:
     return exists().where(proposal.id == FeedbackRow.proposal_id, proposal.purpose == "training")
 
 
-def _throughput(session: Session, experiment_id: int, points: int) -> Chart:
+def _throughput(session: Session, experiment: ExperimentRow, points: int) -> Chart:
     """Labels a minute while somebody labels."""
     row = FeedbackRow
     at = extract("epoch", row.received_at)
-    where = (row.experiment_id == experiment_id, row.status.in_(COUNTING), row.undone_at.is_(None), _training())
+    where = (row.experiment_id == experiment.id, row.status.in_(COUNTING), row.undone_at.is_(None), _training())
     each = (
         select(
             func.row_number().over(order_by=row.id).label("n"),
@@ -251,8 +258,7 @@ def _throughput(session: Session, experiment_id: int, points: int) -> Chart:
         .where(*where)
         .subquery()
     )
-    total = session.scalar(select(func.count(row.id)).where(*where)) or 0
-    bucket = (each.c.n - 1) // max(LEAST_TIMED, -(-total // points))
+    bucket = (each.c.n - 1) // max(LEAST_TIMED, -(-experiment.feedback // points))
     worked = each.c.gap <= PAUSE
     query = (
         select(

@@ -30,7 +30,7 @@ def history(session: Session, experiment_id: int, wanted: HistoryFilter, cursor:
     query = (
         select(row)
         .options(selectinload(row.heard))
-        .where(row.experiment_id == experiment_id, row.closed_at.is_not(None), *_narrowed(wanted))
+        .where(row.experiment_id == experiment_id, row.closed_at.is_not(None), *_narrowed(wanted, experiment_id))
     )
     rows, after = store_pages.page(
         session, query, row.id, _as_it_is, cursor=cursor, limit=limit, newest_first=wanted.order == "desc"
@@ -64,7 +64,7 @@ def _as_it_is(row: Any) -> Any:
     return row
 
 
-def _narrowed(wanted: HistoryFilter) -> list[ColumnElement[bool]]:
+def _narrowed(wanted: HistoryFilter, experiment_id: int) -> list[ColumnElement[bool]]:
     row = ProposalRow
     found: list[ColumnElement[bool]] = []
     if wanted.skill is not None:
@@ -74,8 +74,8 @@ def _narrowed(wanted: HistoryFilter) -> list[ColumnElement[bool]]:
     if wanted.purpose is not None:
         found.append(row.purpose == wanted.purpose)
     if wanted.episode is not None:
-        here = select(EpisodeRow.id).where(EpisodeRow.id == row.episode_id, EpisodeRow.number == wanted.episode)
-        found.append(here.exists())
+        number, of = EpisodeRow.number == wanted.episode, EpisodeRow.experiment_id == experiment_id
+        found.append(row.episode_id.in_(select(EpisodeRow.id).where(number, of)))
     if wanted.label is not None:
         value = FeedbackRow.label
         said = value.is_(None) if wanted.label == "cant_tell" else value == _VALUES[wanted.label]

@@ -8,7 +8,7 @@ from fastapi import APIRouter, Query
 
 from server.errors import invalid
 from server.routes.dependencies import Id, Running, errors
-from server.schemas_critic import CriticMap
+from server.schemas_critic import ConsideredList, CriticMap
 from server.schemas_problems import FieldProblem
 from server.schemas_trust import AutoApprovalRecord, Calibration
 
@@ -45,6 +45,12 @@ async def get_critic_map(
 ) -> CriticMap:
     """What the critic expects of a skill all over the table, in this proposal's situation, and what was said nearby."""
     return await service.critics.look(proposal_id, skill, points, dict(_pair(each) for each in other))
+
+
+@router.get("/proposals/{proposal_id}/considered", responses=errors(404, 409, 422))
+async def get_considered(service: Running, proposal_id: Id) -> ConsideredList:
+    """What the agent would do with each skill in this proposal's situation: with which parameters, and where."""
+    return await service.critics.consider(proposal_id)
 
 
 def _pair(text: str) -> tuple[str, float]:

@@ -24,6 +24,7 @@ from agent.algorithm import (
     AgentError,
     Algorithm,
     AlgorithmFactory,
+    Considering,
     DeviceName,
     Estimating,
     Label,
@@ -146,6 +147,20 @@ class Learner:
         values = algorithm.estimate(np.array(state, dtype=np.float64), asked)
         return {"values": [float(value) for value in values]} | self._status()
 
+    def consider(self, *, state: list[float]) -> dict[str, Any]:
+        """What it would do with each skill, and what the critic expects to be said of that."""
+        algorithm = self.algorithm
+        if not isinstance(algorithm, Considering):
+            raise NoEstimates("this algorithm can't be asked about calls that it doesn't propose")
+        seen = np.array(state, dtype=np.float64)
+        calls = algorithm.consider(seen)
+        values = algorithm.estimate(seen, calls)
+        told = [
+            {"skill": call.skill, "parameters": list(call.parameters), "predicted_feedback": float(value)}
+            for call, value in zip(calls, values, strict=True)
+        ]
+        return {"calls": told} | self._status()
+
     def add(self, *, labels: list[dict[str, Any]]) -> dict[str, Any]:
         """Take new labels; the steps they owe come later."""
         self.algorithm.add(self._labels(labels))
@@ -227,7 +242,7 @@ class Learner:
 def serve(pipes: Pipes) -> None:
     """Answer requests until the server is gone; take gradient steps in between."""
     learner = Learner()
-    answering = ("configure", "propose", "propose_batch", "estimate", "flush", "save", "load")
+    answering = ("configure", "propose", "propose_batch", "estimate", "consider", "flush", "save", "load")
     names = (*answering, "add", "restore", "recollect", "forget", "relabel")
     handlers = {name: getattr(learner, name) for name in names}
     commands = pipes.commands

@@ -11,6 +11,7 @@ import type {
   AutoApprovalRecord,
   Calibration,
   Comparison,
+  ConsideredList,
   CriticMap,
   Curves,
   Episode,
@@ -170,6 +171,10 @@ export const critic = (proposalId: number, skill: string, others: Record<string,
     `/proposals/${proposalId}/critic?${new URLSearchParams([["skill", skill], ...held])}`,
   );
 };
+
+/** What the agent would do with each skill in a proposal's situation. */
+export const considered = (proposalId: number) =>
+  request<ConsideredList>("GET", `/proposals/${proposalId}/considered`);
 
 export const episode = (id: number, number: number) =>
   request<Episode>("GET", `/experiments/${id}/episodes/${number}`);

@@ -3,6 +3,7 @@ import type { components } from "./api";
 
 type Schemas = components["schemas"];
 
+export type ConsideredList = Schemas["ConsideredList"];
 export type Experiment = Schemas["Experiment"];
 export type ExperimentCreate = Schemas["ExperimentCreate"];
 export type ExperimentPage = Schemas["ExperimentPage"];

@@ -154,6 +154,7 @@ it("draws no live picture of another robot", async () => {
       view={view}
       picture={undefined}
       skill={null}
+      proposalId={1}
       overlay={false}
       judged={false}
       robot={1}

@@ -1,5 +1,6 @@
 // One camera: the still picture a proposal is drawn on, and over it the live video while the robot moves.
 import { useEffect, useEffectEvent, useLayoutEffect, useRef } from "react";
+import { useLookedAt } from "../considering";
 import type { FrameSink } from "../frames";
 import { cameraName, skillName, t } from "../i18n";
 import { useSettings } from "../settings";
@@ -7,7 +8,7 @@ import { useZoom } from "../useZoom";
 import type { FrameHeader, View } from "../wire";
 import type { Swipe } from "../zoom";
 import { Minus, Plus, Whole } from "./icons";
-import { OverlayDrawing, Workspace } from "./OverlayDrawing";
+import { FaintDrawing, OverlayDrawing, Workspace } from "./OverlayDrawing";
 
 export interface CameraViewProps {
   side: "left" | "right";
@@ -15,6 +16,7 @@ export interface CameraViewProps {
   /** The decoded still of `view`, or undefined where it is on the canvas already and no longer kept. */
   picture: ImageBitmap | undefined;
   skill: string | null;
+  proposalId: number;
   overlay: boolean;
   judged: boolean;
   /** The robot that is shown; pictures of another are none of it. */
@@ -69,6 +71,7 @@ export function CameraView(props: CameraViewProps) {
   const frame = useRef<HTMLElement>(null);
   const { zoom, stroke, nearer, farther, whole } = useZoom(frame, props.onSwipe);
   const { ghost, workspace } = useSettings();
+  const other = useLookedAt(props.proposalId, view.camera);
   const name = cameraName(view.camera);
   const zoomed = zoom.scale > 1;
   return (
@@ -92,6 +95,7 @@ export function CameraView(props: CameraViewProps) {
             <Workspace corners={view.overlay.workspace} />
           </svg>
         )}
+        {overlay && other && <FaintDrawing overlay={other} width={view.width} height={view.height} />}
         {overlay && (
           <OverlayDrawing
             overlay={view.overlay}

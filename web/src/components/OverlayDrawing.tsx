@@ -95,6 +95,25 @@ export function Workspace({ corners }: { corners: Point[] }) {
   );
 }
 
+/** Another choice of the agent: dashed and hollow, so that nobody takes it for what is to be judged. */
+export function FaintDrawing({ overlay, width, height }: { overlay: Overlay; width: number; height: number }) {
+  const { dot, line, bar, arrow } = overlay;
+  const path = line && (arrow ? arrowPath(line) : straightPath(line));
+  return (
+    <svg
+      className="overlay faint"
+      viewBox={`0 0 ${width} ${height}`}
+      aria-hidden="true"
+      data-testid="considered-overlay"
+    >
+      {[path, bar && straightPath(bar)].map((d) => d && <path key={d} d={d} className="under" />)}
+      {[path, bar && straightPath(bar)].map((d) => d && <path key={d} d={d} />)}
+      {dot && <circle cx={dot[0]} cy={dot[1]} r={7} className="under" />}
+      {dot && <circle cx={dot[0]} cy={dot[1]} r={7} />}
+    </svg>
+  );
+}
+
 export interface OverlayDrawingProps {
   overlay: Overlay;
   width: number;

@@ -1,8 +1,9 @@
 // What the agent thinks: the feedback it expects, which can be hidden, and its choices of a skill in their order.
-import { skillName, t } from "../i18n";
-import { decimal, percent, signed } from "../i18n/numbers";
+import { t } from "../i18n";
+import { decimal, signed } from "../i18n/numbers";
 import { change, useSettings } from "../settings";
 import type { Proposal } from "../wire";
+import { Choices } from "./Choices";
 
 const bound = (value: number) => Math.max(-1, Math.min(1, value));
 const along = (value: number) => 50 + 50 * bound(value);
@@ -30,29 +31,6 @@ function Gauge({ value, uncertainty }: { value: number; uncertainty: number | nu
           </span>
         )}
       </span>
-    </div>
-  );
-}
-
-/** The skills by their probability, the likeliest first: what it would rather have done, and how much rather. */
-function Choices({ proposal }: { proposal: Proposal }) {
-  const skills = Object.entries(proposal.skill_probabilities).sort(([, one], [, other]) => other - one);
-  if (skills.length === 0) return null;
-  return (
-    <div>
-      <h2>{t("agent.choices")}</h2>
-      <ol className="choices">
-        {skills.map(([skill, probability], rank) => (
-          <li className="bar-row" key={skill} data-chosen={skill === proposal.skill}>
-            <span className="rank">{rank + 1}</span>
-            <span className={skill === proposal.skill ? "" : "soft"}>{skillName(skill)}</span>
-            <div className="track">
-              <i style={{ left: 0, width: `${100 * probability}%` }} />
-            </div>
-            <b>{percent(probability)}</b>
-          </li>
-        ))}
-      </ol>
     </div>
   );
 }
@@ -98,7 +76,7 @@ export function Thought({ proposal }: { proposal: Proposal | null }) {
       {proposal ? (
         <div className="thought">
           <Expected proposal={proposal} />
-          <Choices proposal={proposal} />
+          <Choices key={proposal.id} proposal={proposal} />
         </div>
       ) : (
         <>

@@ -74,6 +74,7 @@ export function Views(props: ViewsProps) {
           view={view}
           picture={props.images.get(view.image)}
           skill={props.skill}
+          proposalId={drawn.id}
           overlay={overlay}
           judged={Boolean(drawn.closed_at)}
           robot={props.robot}
