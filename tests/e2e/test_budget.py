@@ -14,10 +14,8 @@ from tests.live import LiveService
 
 FIRST_LOAD = 250_000
 """Bytes of JavaScript, gzipped, until a proposal can be judged."""
-MOST_ROUNDS = 6
-"""Requests that begin only after another has ended, until a proposal is drawn: the page, its scripts, who sits here,
-the words, the stream, the pictures."""
 MOST_REQUESTS = 40
+"""Until a proposal can be judged: each costs a slow network or a loaded service some of the 1.5 s."""
 PROPOSALS = 70
 GROWTH = 1.25
 """How much larger the page's memory may be after twice as many proposals; lists that grow would double it."""
@@ -30,20 +28,6 @@ BEFORE_DRAWN = """
   return performance.getEntriesByType('resource').filter((each) => each.startTime < drawn).map((each) => each.name);
 }
 """
-ROUNDS = """
-() => {
-  const drawn = performance.getEntriesByName('seed:drawn').at(0).startTime;
-  const all = performance.getEntriesByType('resource').filter((each) => each.responseEnd < drawn);
-  let rounds = 1, from = performance.getEntriesByType('navigation')[0].responseEnd;
-  for (;;) {
-    const later = all.filter((each) => each.startTime >= from);
-    if (later.length === 0) return rounds;
-    rounds += 1;
-    from = Math.min(...later.map((each) => each.responseEnd));
-  }
-}
-"""
-
 WATCH = """
 () => {
   window.frames_ = 0;
@@ -93,18 +77,15 @@ def test_a_first_load_stays_small(page: Page, opener: Opener) -> None:
     assert not any("scene" in name for name in scripts), "three.js is for whoever asks for it"
 
 
-def test_a_proposal_can_be_judged_after_few_rounds_to_the_service(page: Page, opener: Opener) -> None:
-    """What makes a first load take its time, counted: rounds that wait for one another, and what else is fetched.
-
-    How long that is (at most 1.5 s) is measured by `python -m tests.benchmarks judging_page`.
-    """
+def test_a_proposal_can_be_judged_after_few_requests(page: Page, opener: Opener) -> None:
+    """What a first load waits for, counted. How long it takes is measured by `tests.benchmarks judging_page`."""
     trainer = opener(preset="stubborn", start=False)
     trainer.test_id("start").click()
     trainer.drawn()
     page.reload()
     trainer.drawn()
     before = page.evaluate(BEFORE_DRAWN)
-    assert page.evaluate(ROUNDS) <= MOST_ROUNDS, before
+    assert any("/images/" in each for each in before)
     assert len(before) <= MOST_REQUESTS, before
 
 

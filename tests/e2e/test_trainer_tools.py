@@ -58,6 +58,111 @@ def test_what_is_drawn_can_be_chosen_and_is_remembered(page: Page, opener: Opene
     expect(left.get_by_test_id("ghost")).to_have_count(1)
 
 
+def test_what_it_would_do_instead_is_drawn_for_whoever_points_at_it(page: Page, opener: Opener) -> None:
+    trainer = opener(algorithm="seed", settings={"hidden_size": 16, "batch_size": 16})
+    proposal = trainer.stored(trainer.drawn())
+    other = next(skill for skill in proposal["skill_probabilities"] if skill != proposal["skill"])
+    faint = page.get_by_test_id("considered-overlay")
+    expect(faint).to_have_count(0)
+    page.locator(f"[data-testid=choice][data-skill={other}]").hover()
+    expect(trainer.test_id("considered")).to_contain_text("x 0.")
+    expect(faint).to_have_count(2)  # one for each camera
+    accessible(page)
+    page.mouse.move(0, 0)
+    expect(faint).to_have_count(0)
+    tab_to(page, f"[data-testid=choice][data-skill={other}]")
+    expect(faint).to_have_count(2)
+    trainer.press(-1)
+    trainer.drawn(proposal["id"])
+    expect(faint).to_have_count(0)
+    assert trainer.counters()["feedback"] == 1
+
+
+def test_wheel_pinch_and_drag_move_a_picture_and_its_overlay_as_one(page: Page, opener: Opener) -> None:
+    trainer = opener(preset="stubborn")
+    trainer.drawn()
+    view = trainer.test_id("view-left")
+
+    def place() -> tuple[float, float, float]:
+        """Where the dot's middle is on its picture, as shares of it, and how wide that picture is."""
+        dot, picture = view.get_by_test_id("dot").bounding_box(), view.locator("canvas").first.bounding_box()
+        assert dot is not None
+        assert picture is not None
+        x = (dot["x"] + dot["width"] / 2 - picture["x"]) / picture["width"]
+        y = (dot["y"] + dot["height"] / 2 - picture["y"]) / picture["height"]
+        return round(x, 3), round(y, 3), picture["width"]
+
+    x, y, whole = place()
+    box = view.bounding_box()
+    assert box is not None
+    middle = (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    page.mouse.move(*middle)
+    page.mouse.wheel(0, -300)
+    assert place()[2] == whole, "without Ctrl the wheel scrolls the page"
+    page.keyboard.down("Control")
+    page.mouse.wheel(0, -300)
+    page.keyboard.up("Control")
+    expect(view).to_have_attribute("data-zoomed", "true")
+    assert place()[:2] == (x, y)
+    assert place()[2] > 1.5 * whole
+    before = view.locator("canvas").first.bounding_box()
+    page.mouse.down()
+    page.mouse.move(middle[0] + 60, middle[1] + 30, steps=4)
+    page.mouse.up()
+    after = view.locator("canvas").first.bounding_box()
+    assert before is not None
+    assert after is not None
+    assert after["x"] - before["x"] > 40
+    assert place()[:2] == (x, y)
+    page.keyboard.press("Escape")
+    view.get_by_role("button", name="Show all of the left picture").click()
+    pinch(page, middle, 40, 120)
+    expect(view).to_have_attribute("data-zoomed", "true")
+    assert place()[:2] == (x, y)
+    assert place()[2] > 1.5 * whole
+    assert trainer.counters()["feedback"] == 0, "none of it judges"
+
+
+def pinch(page: Page, middle: tuple[float, float], apart: float, at_last: float) -> None:
+    """Two fingers that move apart, as the browser's own input sends them."""
+    session = page.context.new_cdp_session(page)
+    for kind, half in (("touchStart", apart), ("touchMove", (apart + at_last) / 2), ("touchMove", at_last)):
+        fingers = [{"x": middle[0] + side * half, "y": middle[1], "id": side + 1} for side in (-1, 1)]
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": fingers})
+    session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    session.detach()
+
+
+HEARD = """
+window.heard = {tones: 0, taps: 0};
+const start = OscillatorNode.prototype.start;
+OscillatorNode.prototype.start = function (...given) { window.heard.tones += 1; return start.apply(this, given); };
+navigator.vibrate = () => { window.heard.taps += 1; return true; };
+window.later = 0;
+const now = Date.now;
+Date.now = () => now() + window.later;
+localStorage.setItem('seed.judging', '{"sound": true, "haptic": true, "restAfter": 10, "toured": true}');
+"""
+
+
+def test_the_next_proposal_is_heard_and_a_rest_is_proposed_in_time(page: Page, opener: Opener) -> None:
+    page.add_init_script(HEARD)
+    trainer = opener(preset="stubborn")
+    proposal = trainer.drawn()
+    rest = trainer.notices.get_by_text("10 minutes")
+    for _ in range(5):
+        expect(rest).to_have_count(0)
+        trainer.press(-1)
+        proposal = trainer.drawn(proposal)
+        page.evaluate("window.later += 121000")  # a click every two minutes
+    trainer.press(-1)
+    expect(rest).to_be_visible()
+    assert page.evaluate("window.heard.tones") >= 5
+    assert page.evaluate("window.heard.taps") >= 5
+    expect(trainer.test_id("pace-rate")).to_contain_text("0.")
+    expect(trainer.test_id("pace-streak")).to_have_text("6")
+
+
 def test_the_third_view_is_drawn_from_the_state(page: Page, opener: Opener) -> None:
     trainer = opener(preset="stubborn")
     trainer.drawn()

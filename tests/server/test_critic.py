@@ -81,3 +81,29 @@ async def test_where_there_is_no_critic_it_says_why(tmp_path: Path, plugins: Non
         _, proposal = await taught(live, 3, algorithm="scripted", settings={})
         told = check_problem(await live.http.get(f"/api/v1/proposals/{proposal}/critic"), 409)
         assert "scripted" in told.detail
+
+
+async def test_what_it_would_do_with_other_skills_is_told_and_drawn_while_a_proposal_is_open(tmp_path: Path) -> None:
+    async with serving(tmp_path) as live:
+        body = {"task": "stacking", "adapter": "kinematic", "algorithm": "seed", "settings": {"hidden_size": 16}}
+        experiment = await live.experiment(**body)
+        async with live.stream(experiment) as viewer:
+            await live.http.post(f"/api/v1/experiments/{experiment}/start")
+            proposal = (await event(viewer, "proposal_opened"))["proposal"]
+        where = f"/api/v1/proposals/{proposal['id']}/considered"
+        items = (await live.http.get(where)).json()["items"]
+        assert [each["probability"] for each in items] == sorted(proposal["skill_probabilities"].values(), reverse=True)
+        (own,), (other,) = ([each for each in items if each["proposed"] is it] for it in (True, False))
+        assert (own["skill"], own["parameters"]) == (proposal["skill"], proposal["parameters"])
+        assert own["overlays"] == {view["camera"]: view["overlay"] for view in proposal["views"]}
+        assert set(other["overlays"]) == {"left", "right"}
+        assert other["overlays"]["left"]["dot"] is not None
+        specs = {spec["name"]: spec for spec in (await live.http.get("/api/v1/tasks/stacking")).json()["skills"]}
+        for parameter in specs[other["skill"]]["parameters"]:
+            assert parameter["low"] <= other["parameters"][parameter["name"]] <= parameter["high"]
+        assert (await live.http.get(where)).json()["items"] == items  # to ask changes nothing
+        await live.http.post(f"/api/v1/experiments/{experiment}/finish")
+        await live.service.hub.idle(experiment)
+        closed = (await live.http.get(where)).json() if (await live.http.get(where)).is_success else {"items": []}
+        assert not any(each["overlays"] for each in closed["items"] if not each["proposed"])
+        check_problem(await live.http.get("/api/v1/proposals/999/considered"), 404)

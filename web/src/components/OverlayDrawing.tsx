@@ -96,7 +96,15 @@ export function Workspace({ corners }: { corners: Point[] }) {
 }
 
 /** Another choice of the agent: dashed and hollow, so that nobody takes it for what is to be judged. */
-export function FaintDrawing({ overlay, width, height }: { overlay: Overlay; width: number; height: number }) {
+export function FaintDrawing({
+  overlay,
+  width,
+  height,
+}: {
+  overlay: Overlay;
+  width: number;
+  height: number;
+}) {
   const { dot, line, bar, arrow } = overlay;
   const path = line && (arrow ? arrowPath(line) : straightPath(line));
   return (
