@@ -40,6 +40,9 @@ TAUGHT = (60, 120, 180)
 """Labels of a teacher before each evaluation."""
 STUDY = "first-subgoal"
 PATIENCE = 300.0
+ALL_LOADED = """() => [...document.images].every((image) => image.complete ||
+    image.getBoundingClientRect().top > innerHeight)"""
+"""Whether every picture in sight has come."""
 
 
 def _as_it_is(page: Page) -> None:
@@ -50,7 +53,7 @@ def _as_it_is(page: Page) -> None:
 
 def _ready(page: Page) -> None:
     page.wait_for_selector("[data-ready]", timeout=PATIENCE * 1000)
-    page.wait_for_function("() => [...document.images].every((image) => image.complete || image.loading === 'lazy')")
+    page.wait_for_function(ALL_LOADED)
 
 
 def _with_everything(page: Page) -> None:
@@ -69,7 +72,7 @@ def _charted(page: Page) -> None:
 
 def _seen(page: Page) -> None:
     _as_it_is(page)
-    page.wait_for_function("() => [...document.images].every((image) => image.complete || image.loading === 'lazy')")
+    page.wait_for_function(ALL_LOADED)
 
 
 def _settings(page: Page) -> None:
@@ -98,7 +101,13 @@ def _asked_for_a_name(page: Page) -> None:
 def _studied(page: Page) -> None:
     _as_it_is(page)
     page.wait_for_selector("[data-testid=study-chart] canvas")
-    page.wait_for_function("() => [...document.images].every((image) => image.complete || image.loading === 'lazy')")
+    page.wait_for_function(ALL_LOADED)
+
+
+def _considered(page: Page) -> None:
+    _ready(page)
+    page.locator("[data-chosen=false] [data-testid=choice]").first.hover()
+    page.get_by_test_id("considered-overlay").first.wait_for(state="attached")
 
 
 def _past(page: Page) -> None:
@@ -111,6 +120,7 @@ PAGES: dict[str, tuple[str, Callable[[Page], None]]] = {
     "experiments": ("/", _as_it_is),
     "trainer": ("/experiments/1", _ready),
     "trainer-tools": ("/experiments/1", _with_everything),
+    "trainer-choices": ("/experiments/1", _considered),
     "trainer-past": ("/experiments/1", _past),
     "operator": ("/experiments/1", _operating),
     "practice": ("/experiments/1/practice", _seen),
