@@ -73,7 +73,7 @@ function options({ width, height, picture, lines, format, onSpan, onRead }: Sett
   return {
     width,
     height,
-    padding: [10, 12, 0, 0],
+    padding: [10, 18, 0, 0],
     legend: { show: false },
     cursor: { y: false, drag: { x: true, y: false, dist: 6 }, points: { size: 7 } },
     scales: {
