@@ -1361,6 +1361,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/proposals/{proposal_id}/considered": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Considered
+         * @description What the agent would do with each skill in this proposal's situation: with which parameters, and where.
+         */
+        get: operations["get_considered"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/experiments/{experiment_id}/quality": {
         parameters: {
             query?: never;
@@ -2643,6 +2663,55 @@ export interface components {
             curves: components["schemas"]["ComparedCurve"][];
             /** Missing */
             missing: number[];
+        };
+        /**
+         * Considered
+         * @description What the agent would do with one skill. Overlays are there while the proposal is open and its robot looks on.
+         */
+        Considered: {
+            /** Skill */
+            skill: string;
+            /**
+             * Probability
+             * @description of the skill, when the proposal was made
+             */
+            probability: number;
+            /**
+             * Parameters
+             * @description m and rad, robot base frame
+             */
+            parameters: {
+                [key: string]: number;
+            };
+            /** Predicted Feedback */
+            predicted_feedback: number;
+            /**
+             * Proposed
+             * @description it is the proposal itself
+             */
+            proposed: boolean;
+            /**
+             * Overlays
+             * @description by camera, in pixels of the proposal's pictures
+             */
+            overlays: {
+                [key: string]: components["schemas"]["Overlay"];
+            };
+        };
+        /**
+         * ConsideredList
+         * @description What the agent would do with each skill in one proposal's situation, the likeliest skill first.
+         */
+        ConsideredList: {
+            /** Proposal Id */
+            proposal_id: number;
+            /**
+             * Policy Version
+             * @description gradient steps that the agent had taken when it was asked
+             */
+            policy_version: number;
+            /** Items */
+            items: components["schemas"]["Considered"][];
         };
         /**
          * Counters
@@ -12637,6 +12706,100 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["CriticMap"];
+                };
+            };
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The state of things doesn't allow it; `current` and `allowed` say what does */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many requests; `Retry-After` says when to come again */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_considered: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                proposal_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ConsideredList"];
                 };
             };
             /** @description Nobody is signed in */

@@ -55,13 +55,13 @@ export function Choices({ proposal }: { proposal: Proposal }) {
           </li>
         ))}
       </ol>
-      <p className="considered number" role="status" data-testid="considered">
+      <div className="considered number" role="status" data-testid="considered">
         {chosen
           ? [...parameters, estimate && t("agent.considered", { value: signed(chosen.predicted_feedback) })]
               .filter(Boolean)
               .join(" · ")
           : t("agent.consider")}
-      </p>
+      </div>
     </div>
   );
 }
