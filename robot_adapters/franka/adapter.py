@@ -310,7 +310,7 @@ class FrankaAdapter:
     def _must_see(self) -> None:
         self._refusal = self._eyes.refusal()
         if self._refusal is not None:
-            raise Unavailable(self._refusal, remedy="put that right, then resume")
+            raise Unavailable(self._refusal, remedy="put that right, or calibrate the cameras again, then resume")
 
     def _must_still_be_so(self) -> None:
         """Look once more before the arm moves: people and cameras may have moved while somebody judged."""

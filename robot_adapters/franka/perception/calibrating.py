@@ -115,12 +115,13 @@ class Session:
         self._look()
         corners = {name: found for name, p in self.pictures.items() if (found := self.board.find(p.colour)) is not None}
         moving = _apart(before, hand(), STILL)
-        new = all(_apart(before, taken, NEW) for taken in self._hands)
+        # a camera that saw the board a moment later than another takes the pose too
+        fresh = {name: found for name, found in corners.items() if self._is_new(name, before)}
         wanting = [name for name in self.watches if len(self._sightings.get(name, [])) < self.wanted]
-        if take and not moving and new and any(name in corners for name in wanting):
-            self._take(before, corners)
+        if take and not moving and any(name in fresh for name in wanting):
+            self._take(before, fresh)
             return self._told(corners, "taken")
-        return self._told(corners, *self._advice(corners, moving=moving, new=new))
+        return self._told(corners, *self._advice(corners, moving=moving, new=bool(fresh)))
 
     def replay(self, poses: Sequence[Array], told: Callable[[Step], None] = lambda _: None) -> None:
         """Take a recorded session: the n-th picture of every camera belongs to the n-th pose.
@@ -184,6 +185,10 @@ class Session:
         """M between where two cameras say that the board is in the hand; None with one camera."""
         at = [result.hand_from_board[:3, 3] for result in self.results.values()]
         return max(float(np.linalg.norm(a - at[0])) for a in at) if len(at) > 1 else None
+
+    def _is_new(self, name: str, hand: Array) -> bool:
+        """Whether this camera has no sighting yet from so near a pose of the hand (4, 4)."""
+        return all(_apart(hand, seen.base_from_hand, NEW) for seen in self._sightings.get(name, []))
 
     def _look(self) -> None:
         asked = time.time()
