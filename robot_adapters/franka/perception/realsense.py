@@ -12,6 +12,8 @@ from robot_adapters.franka.perception.camera import HEIGHT, WIDTH, CameraLost, L
 
 RATE = 15  # pictures a second; the most that a D415 gives of colour at this size over USB 2
 PATIENCE = 5000  # ms without a picture until a device counts as gone; the first one takes a second or two
+STEP = 1000  # ms, likewise of a recording, whose player is then asked whether it is over
+PATIENCE_AT_PLAY = 30_000  # ms that a recording which isn't over may take for its next picture
 
 
 class RealSense:
@@ -27,11 +29,13 @@ class RealSense:
         self._rs = rs
         self._source = source
         self._pipeline = rs.pipeline()
+        self._playback: Any = None
         try:
             if not live:
                 # the reader sets the pace, from the very start: what plays at its own is missed
                 device = config.resolve(rs.pipeline_wrapper(self._pipeline)).get_device()
-                device.as_playback().set_real_time(False)
+                self._playback = device.as_playback()
+                self._playback.set_real_time(False)
             profile = self._pipeline.start(config)
             streams = {s.stream_type(): s.as_video_stream_profile() for s in profile.get_streams()}
         except RuntimeError as error:
@@ -49,7 +53,11 @@ class RealSense:
 
     def read(self) -> Picture:
         """See `Camera`."""
-        there, frames = self._pipeline.try_wait_for_frames(PATIENCE if self.live else 1000)
+        there, frames = self._pipeline.try_wait_for_frames(PATIENCE if self.live else STEP)
+        waited = STEP
+        while not there and self._plays() and waited < PATIENCE_AT_PLAY:  # a busy machine takes its time
+            there, frames = self._pipeline.try_wait_for_frames(STEP)
+            waited += STEP
         if not there:
             what = "gives no pictures any more" if self.live else "has come to its end"
             raise CameraLost(f"{self._source} {what}", remedy="check its cable, then resume")
@@ -66,6 +74,10 @@ class RealSense:
     def close(self) -> None:
         """See `Camera`."""
         self._pipeline.stop()
+
+    def _plays(self) -> bool:
+        """Whether a recording has more to give, as far as its player knows."""
+        return bool(self._playback is not None and self._playback.current_status() == self._rs.playback_status.playing)
 
     def _taken_at(self, frame: Any) -> float:
         """Seconds since the epoch: the camera's own stamp where that is a time of day, otherwise now."""
