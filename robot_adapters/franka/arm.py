@@ -17,7 +17,7 @@ PERIOD = 1.0 / CONTROL_HZ
 POLL = 0.004
 """s between two looks at the arm and at `should_stop` while a set-point lasts."""
 SILENCE = 0.5
-"""s of real time without a new state, after which the arm counts as gone."""
+"""s of real time without a new state, after which the arm counts as gone; longer where the dead-man timer is."""
 HAND_PATIENCE = 6.0
 """s of the robot's clock for the fingers to open or close: all the way takes two."""
 SHUT = 0.01
@@ -41,15 +41,19 @@ SETTLED = 0.02
 class FrankaArm:
     """Moves by set-points. `should_stop` and `while_waiting` are the running skill's; set them before it."""
 
-    def __init__(self, backend: FrankaBackend, limits: Limits, *, offset: Array | None = None) -> None:
+    def __init__(
+        self, backend: FrankaBackend, limits: Limits, *, offset: Array | None = None, silence: float = SILENCE
+    ) -> None:
         """Use a connected arm.
 
         Args:
             backend: the connection.
             limits: in the robot's base frame.
+            silence: s of real time without a new state, after which the arm counts as gone.
             offset: (3,) m to add to a position of the task to get one of the robot: labs mount arms at other heights.
         """
         self.backend = backend
+        self._silence = silence
         self._limits = limits
         self._offset = np.zeros(3) if offset is None else offset
         self.table_height = limits.table - float(self._offset[2])
@@ -132,7 +136,7 @@ class FrankaArm:
             ArmFault: it can't be cleared.
         """
         self.backend.recover()
-        until = time.monotonic() + SILENCE
+        until = time.monotonic() + self._silence
         while self.look().mode is Mode.REFLEX and time.monotonic() < until:
             time.sleep(POLL)
         self._must_be_well(self._state)
@@ -221,7 +225,7 @@ class FrankaArm:
             now = time.monotonic()
             if state.time > heard:
                 heard, since = state.time, now
-            elif now - since > SILENCE:
+            elif now - since > self._silence:
                 raise ArmFault("the arm's clock stands still", mode=Mode.DISCONNECTED)
             if state.time - began > patience:
                 raise ArmFault(what or "the arm doesn't follow", mode=state.mode, remedy="look at it, then try again")

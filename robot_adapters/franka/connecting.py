@@ -10,7 +10,7 @@ import numpy as np
 
 from robot_adapters.base import Array, workspace
 from robot_adapters.franka import FrankaSettings
-from robot_adapters.franka.arm import FrankaArm
+from robot_adapters.franka.arm import SILENCE, FrankaArm
 from robot_adapters.franka.backend import FrankaBackend
 from robot_adapters.franka.driving import Driving
 from robot_adapters.franka.limits import Limits
@@ -87,7 +87,12 @@ def arm(settings: FrankaSettings, task: Task) -> FrankaArm:
     Raises:
         Unavailable: the driver isn't installed, or the arm can't be reached.
     """
-    return FrankaArm(backend(settings), limits(settings, task), offset=offset(settings, task))
+    return FrankaArm(
+        backend(settings),
+        limits(settings, task),
+        offset=offset(settings, task),
+        silence=max(SILENCE, settings.dead_man),
+    )
 
 
 def _longest_push(task: Task) -> float:

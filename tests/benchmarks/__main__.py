@@ -12,8 +12,8 @@ import tests.benchmarks
 from tests.benchmarks.result import Result
 
 NOT_BENCHMARKS = {"result", "__main__"}
-ASKED_FOR = {"franka_arm"}
-"""Run only by name: a simulator of their own, and most of an hour."""
+ASKED_FOR = {"franka_arm", "franka_stops"}
+"""Run only by name: a simulator of their own, and a good part of an hour."""
 
 
 def names() -> list[str]:

@@ -11,6 +11,7 @@ from tests.e2e.trainer import START_MS, Opener
 from tests.live import wait_for
 from tests.robot_adapters.franka.conftest import APART, BLOCKS, TABLE
 from tests.simulators.franka import SimulatedFranka
+from tests.simulators.session import UNHURRIED
 
 pytestmark = pytest.mark.simulated_arm
 
@@ -28,6 +29,7 @@ def test_an_operator_attends_judges_and_brings_the_arm_home(backend: str, opener
         "host": lab.host,
         "backend": backend,
         "realtime": False,
+        "dead_man": UNHURRIED,
         "eyes": "onlooker",
         "eyes_settings": {"host": lab.host},
     }

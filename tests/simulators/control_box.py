@@ -78,6 +78,11 @@ class LabServer(FrankaRobotServer):  # type: ignore[misc]
         self.lost, self.begun = 0, False
         super().start_motion(*arguments)
 
+    def stop_motion(self, send_preemption_signal: bool = True) -> None:
+        """Hold the arm where it is: franky-sim's holds where it was to be, and creeps there for seconds."""
+        super().stop_motion(send_preemption_signal)
+        self._FrankaRobotServer__holding_q = tuple(self.robot.inner_state.q)
+
     def _handle_udp_command(self, command_data: bytes) -> None:
         self.last_command = struct.unpack_from("<Q", command_data)[0]
         self.begun = self.moving

@@ -31,6 +31,7 @@ READY = (0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785)  # rad; Franka's own "read
 FORCE_FILTER = 0.05  # of a new force in every millisecond, about what the real estimate does
 LOCK_STEP_PATIENCE = 3.0  # s for a client's command before it counts as lost: a loaded machine may need them
 GONE_PATIENCE = 0.02  # s, likewise, once one was lost: nobody may be there any more
+LOOK = 10  # ms between two looks at whether the arm stands
 STANDING = 0.01  # rad/s of every joint, below which the arm stands still: less than 1 cm/s at the hand
 PULL = 4.0  # N, twice what a grasp of 20 N holds of a smooth block
 CONTROL_PORT = 1339
@@ -75,6 +76,7 @@ class Lab:
         self.speed = 1.0
         self.lock_step = False
         self.paced = False
+        self.joints = np.array(READY)
         self.moved_at, self.moved_on = 0, 0.0
         self.driven_at, self.driven_on = 0, 0.0
         self.clock = 0
@@ -97,8 +99,11 @@ class Lab:
             self.data.xfrc_applied[self.hand, :3] = self.push if self.clock < self.push_until else 0.0
             self.sim.step()
             self.clock += 1
-            if np.abs(self.data.qvel[self.robot._dof_addrs]).max() > STANDING:
-                self.moved_at, self.moved_on = self.clock, time.monotonic()
+            if self.clock % LOOK == 0:  # its own speed: what holds a joint makes it tremble from one ms to the next
+                joints = self.data.qpos[self.robot._qpos_addrs]
+                if np.abs(joints - self.joints).max() > STANDING * LOOK / 1000:
+                    self.moved_at, self.moved_on = self.clock, time.monotonic()
+                self.joints = joints
             if server.moving:
                 self.driven_at, self.driven_on = self.clock, time.monotonic()
             self.feel()

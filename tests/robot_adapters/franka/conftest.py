@@ -12,6 +12,7 @@ from robot_adapters.franka import FrankaSettings
 from robot_adapters.franka.adapter import FrankaAdapter
 from tests.live import PLUGINS
 from tests.simulators.franka import SimulatedFranka
+from tests.simulators.session import UNHURRIED
 
 BLOCKS = {"block_a": 0.02, "block_b": 0.025}
 TABLE = -0.112
@@ -42,7 +43,13 @@ def build(arm: SimulatedFranka) -> Iterator[Build]:
 
     def make(**settings: object) -> FrankaAdapter:
         arm.tell(user_stop=False, plug=True, slippery=False, lock_step=True, heal=True, place=APART)
-        given = {"host": arm.host, "realtime": False, "eyes": "onlooker", "eyes_settings": {"host": arm.host}}
+        given = {
+            "host": arm.host,
+            "realtime": False,
+            "dead_man": UNHURRIED,
+            "eyes": "onlooker",
+            "eyes_settings": {"host": arm.host},
+        }
         made.append(FrankaAdapter("stacking", FrankaSettings.model_validate(given | settings)))
         return made[-1]
 

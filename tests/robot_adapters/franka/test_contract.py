@@ -9,6 +9,7 @@ import pytest
 from robot_adapters.contract import AdapterContract
 from tests.robot_adapters.franka.conftest import APART, BLOCKS, TABLE
 from tests.simulators.franka import SimulatedFranka
+from tests.simulators.session import UNHURRIED
 
 pytestmark = pytest.mark.simulated_arm
 
@@ -25,7 +26,7 @@ class OnTheArm(AdapterContract):
         cls.lab.tell(place=APART)
         host = cls.lab.host
         eyes = {"eyes": "onlooker", "eyes_settings": {"host": host}}
-        cls.settings = {"host": host, "backend": cls.backend, "realtime": False, **eyes}
+        cls.settings = {"host": host, "backend": cls.backend, "realtime": False, "dead_man": UNHURRIED, **eyes}
         super().setup_class()
 
     @classmethod

@@ -101,7 +101,7 @@ def test_a_user_stop_is_never_recovered_by_itself(backend: str, build: Build, ar
 
 @both
 def test_a_pulled_cable_ends_the_motion_and_is_told(backend: str, build: Build, arm: SimulatedFranka) -> None:
-    adapter = build(backend=backend)
+    adapter = build(backend=backend, dead_man=0.6)
     adapter.reset()
     pulled: list[dict[str, Any]] = []
     result = moved(adapter, AWAY, lambda: pulled.append(arm.tell(lock_step=False, plug=False)))
@@ -150,7 +150,7 @@ def test_a_motion_that_nobody_drives_any_more_is_stopped_after_the_time_that_was
 
 
 def test_with_more_patience_it_goes_on(build: Build, arm: SimulatedFranka) -> None:
-    adapter = build(dead_man=10.0)
+    adapter = build(dead_man=5.0)
     adapter.reset()
 
     def dawdle() -> None:

@@ -13,6 +13,7 @@ from robot_adapters.franka.adapter import FrankaAdapter
 from tests.live import wait_for
 from tests.robot_adapters.franka.conftest import TABLE, never, nothing
 from tests.simulators.franka import SimulatedFranka
+from tests.simulators.session import UNHURRIED
 
 pytestmark = pytest.mark.simulated_arm
 
@@ -32,6 +33,7 @@ def adapter_for(task: str, backend: str, lab: SimulatedFranka) -> FrankaAdapter:
         "host": lab.host,
         "backend": backend,
         "realtime": False,
+        "dead_man": UNHURRIED,
         "eyes": "onlooker",
         "eyes_settings": {"host": lab.host, "joints": {"drawer": 0.16}},
     }
