@@ -34,6 +34,7 @@ class DeadMan:
         self._alive, self._fired, self._moving = time.monotonic(), False, True
 
         def asked() -> bool:
+            self._check()  # the watching thread may have been as frozen as the motion: on a busy machine it was
             self._alive = time.monotonic()
             return self._fired or should_stop()
 
@@ -50,7 +51,10 @@ class DeadMan:
 
     def _watch(self) -> None:
         while not self._closed.wait(LOOK):
-            if self._moving and not self._fired and time.monotonic() - self._alive > self._patience:
-                log.error("no set-point for %.1f s: the arm is stopped", self._patience)
-                self._fired = True
-                self._arm.backend.halt()
+            self._check()
+
+    def _check(self) -> None:
+        if self._moving and not self._fired and time.monotonic() - self._alive > self._patience:
+            log.error("no set-point for %.1f s: the arm is stopped", self._patience)
+            self._fired = True
+            self._arm.backend.halt()
