@@ -295,13 +295,16 @@ class Replay:
 
     def _put_before(self, other: Replay) -> None:
         """Take labels that are all older than those held."""
+        # what the newest mean doesn't depend on older ones, once there are as many of them as are looked at
+        means = self._means if self._believed is not None and self._size >= RECENT else None
         if self._first < other._size:
             self._make_room(before=max(other._size, self._size), behind=0)
         self._begin_at(self._first - other._size)
         self._size += other._size
         for column, added in zip(self._columns(), other._columns(), strict=True):
             column[: other._size] = added[: other._size]
-        self._by_value = self._means = None
+        self._by_value = None
+        self._means = None if means is None else np.concatenate([other._values[: other._size], means])
 
     def _grow(self) -> None:
         self._make_room(before=0, behind=len(self._ids))

@@ -33,6 +33,10 @@ DEATHS = 3
 """More deaths of one worker than this within `DEATH_WINDOW` seconds, and the experiment has failed."""
 
 
+A_STEP = 1.0
+"""s that an owed gradient step may last on a busy machine; a few milliseconds on one that is well."""
+
+
 class TooManyDeaths(WorkerError):
     """A worker that dies again and again: restarting it is of no use."""
 
@@ -82,6 +86,8 @@ class Crew:
         """What the learner's newest gradient step reported."""
         self.policy_version = 0
         """Gradient steps that the learner has reported."""
+        self._owed = 0
+        """Gradient steps that it owed when it last told."""
 
     # --- life ---------------------------------------------------------------------------------------------------
 
@@ -217,8 +223,8 @@ class Crew:
         return self.learner.worker if self.learner.ready else None
 
     async def flush(self) -> None:
-        """Wait until every owed gradient step is taken."""
-        await self._learner("flush")
+        """Wait until every owed gradient step is taken: a learner that has much to catch up with isn't hung."""
+        await self._learner("flush", patience=self._owed * A_STEP)
 
     async def newest_policy_version(self) -> int:
         """Gradient steps taken, once those owed are taken too; of the newest checkpoint if none learns now."""
@@ -252,7 +258,7 @@ class Crew:
         await self._load_newest(learner)
         newest_first = configured["recollects"] and not experiment.lockstep
         restored = await self.recollection.restore(learner, newest_first=newest_first)
-        self.policy_version = restored["policy_version"]
+        self.policy_version, self._owed = restored["policy_version"], restored["owed_updates"]
         # what came while this went on; the learner knows an id that it has seen
         while self._missed or self._forgotten or self._corrected:
             missed, self._missed = self._missed, []
@@ -298,10 +304,13 @@ class Crew:
         self._told.add(told)
         told.add_done_callback(self._told.discard)
 
-    async def _learner(self, command: str, most: float = math.inf, **arguments: Any) -> dict[str, Any]:
-        deadline = min(most, self._settings.learner_deadline)
+    async def _learner(
+        self, command: str, most: float = math.inf, *, patience: float = 0.0, **arguments: Any
+    ) -> dict[str, Any]:
+        deadline = min(most, self._settings.learner_deadline + patience)
         status = await self.learner.worker.call(command, deadline=deadline, **arguments)
         self.metrics, self.policy_version = status["metrics"], status["policy_version"]
+        self._owed = status["owed_updates"]
         return status
 
 

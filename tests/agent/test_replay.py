@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
-from agent.replay import INITIAL_CAPACITY, Batch, Entry, Replay, shares
+from agent.replay import INITIAL_CAPACITY, Batch, Entry, Int64, Replay, shares
 
 VALUES = st.sampled_from([-1, 0, 1])
 
@@ -177,3 +178,20 @@ def test_thousands_of_older_labels_find_room_and_the_newer_stay() -> None:
     replay.take(newer)
     assert len(replay) == count // 500 * 500 + 2 * count
     np.testing.assert_array_equal(replay.bad().states[-1], np.full(2, 3 * count))
+
+
+def test_what_the_newest_mean_stays_when_older_ones_come() -> None:
+    def believed(_: Batch, values: NDArray[np.int8], __: Int64) -> NDArray[np.int8]:
+        return np.where(np.arange(len(values)) % 3 == 0, -values, values).astype(np.int8)
+
+    at_once, later = (Replay(2, 4, believed=believed) for _ in range(2))
+    for replay, parts in ((at_once, [(1, 1600)]), (later, [(1500, 1600), (900, 1500), (300, 900), (1, 300)])):
+        for first, end in parts:
+            some = replay.empty()
+            for label_id in range(first, end):
+                some.add(entry(label_id, 1 if label_id % 2 else -1))
+            replay.take(some)
+            replay.counts()  # what the labels mean is worked out when it is asked for
+    ours, theirs = (replay.sample(256, np.random.default_rng(0)) for replay in (at_once, later))
+    assert at_once.counts() == later.counts()
+    np.testing.assert_array_equal(ours.targets, theirs.targets)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 import signal
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Coroutine
 from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import Any
@@ -17,7 +17,8 @@ from server.schemas import Experiment, Feedback, Proposal
 from server.schemas_labels import RelabelCreate
 from server.store import Store
 from server.store_values import StoredLabel
-from tests.server.stage import Stage, stage
+from server.worker import Worker
+from tests.server.stage import PATIENCE, SMALL, Stage, stage
 
 CANDID: dict[str, Any] = {"algorithm": "candid", "settings": {"bad_first": 1_000_000}, "mode": "propose_only"}
 GIVEN = 7
@@ -114,3 +115,24 @@ async def test_the_service_can_end_in_the_middle_of_it(tmp_path: Path, plugins: 
         begun = await s.seen.next(ExperimentChanged, where=lambda e: e.experiment.catching_up is not None)
         await s.seen.next(ExperimentChanged, s.seen.events.index(begun), where=lambda e: not e.experiment.catching_up)
         assert {each.id for each in given} <= (await held_by(s, first)).keys()
+
+
+async def test_a_learner_that_owes_many_steps_is_not_taken_for_hung(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    patient, call = asyncio.Event(), Worker.call
+
+    def noted(self: Worker, command: str, *, deadline: float, **arguments: Any) -> Coroutine[Any, Any, dict[str, Any]]:
+        if command == "flush" and deadline > PATIENCE + 100:
+            patient.set()
+        return call(self, command, deadline=deadline, **arguments)
+
+    monkeypatch.setattr(Worker, "call", noted)
+    async with stage(tmp_path) as s:
+        experiment = await s.experiment(settings=SMALL | {"gradient_steps": 200, "train_frequency": 2})
+        await s.hub.act(experiment.id, "start")
+        for number in (1, 2):
+            await s.judge(await s.proposal(number=number), -1)
+        await s.proposal(number=3)
+        async with asyncio.timeout(PATIENCE):
+            await patient.wait()
