@@ -35,12 +35,12 @@ RUN useradd --create-home --user-group --uid 10001 seed && \
     install -d -o seed -g seed /data
 
 COPY --from=build /opt/seed /opt/seed
-# The port is open inside the container only; compose.yaml publishes it on the host's loopback address.
+# Others reach the port, so everybody is asked who they are: the log of the first start tells the owner's way in.
 ENV PATH=/opt/seed/bin:$PATH \
     PYTHONUNBUFFERED=1 \
-    SEED_ALLOW_REMOTE=1 \
     SEED_DATA_DIR=/data \
     SEED_HOST=0.0.0.0 \
+    SEED_LOGIN=1 \
     SEED_PORT=8000
 USER 10001
 WORKDIR /home/seed

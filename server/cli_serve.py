@@ -14,11 +14,13 @@ import uvicorn
 
 from server.app import create_app
 from server.errors import ServiceError
-from server.service import opened
+from server.service import Service, opened
 from server.settings import Settings
 
 LARGEST_MESSAGE = 64 * 1024
 """Bytes of a WebSocket message; a larger one closes the connection with 1009. Ours are below 300."""
+SHORTEST_TOKEN, LONGEST_TOKEN = 32, 200
+"""Characters of an owner's token that somebody else made."""
 GRACE = 3
 """Seconds that requests which are still being answered get when the service ends."""
 GIL_S = 0.0005
@@ -39,11 +41,33 @@ async def run_server(settings: Settings, *, announce: Callable[[str], None]) -> 
             server = Server(config(create_app(settings, service), settings))
             address = _url(settings.host, listener.getsockname()[1]) + settings.root_path
             server.on_ready = lambda: announce(f"SEED is ready: {address}")
-            if settings.login and not await service.store.people.has_owner():
-                announce(
-                    f"The owner's way in, told this once: {address}/join#{await service.store.people.owner_token()}"
-                )
+            if settings.login:
+                await _let_the_owner_in(service, settings, address, announce)
             await server.serve(sockets=[listener])
+
+
+async def _let_the_owner_in(
+    service: Service, settings: Settings, address: str, announce: Callable[[str], None]
+) -> None:
+    """By the token that a file holds, or, at the first start, by a new one that is told."""
+    people = service.store.people
+    if settings.owner_token_file is None:
+        if not await people.has_owner():
+            announce(f"The owner's way in, told this once: {address}/join#{await people.owner_token()}")
+        return
+    try:
+        given = settings.owner_token_file.read_text("utf-8").strip()
+    except (OSError, UnicodeDecodeError) as error:
+        raise ServiceError(
+            503, f"SEED_OWNER_TOKEN_FILE can't be read: {error}", remedy="name a text file that holds the owner's token"
+        ) from error
+    if not SHORTEST_TOKEN <= len(given) <= LONGEST_TOKEN:
+        raise ServiceError(
+            503,
+            f"SEED_OWNER_TOKEN_FILE holds a token of {len(given)} characters",
+            remedy=f"put {SHORTEST_TOKEN} to {LONGEST_TOKEN} random characters there, e.g. by openssl rand -hex 32",
+        )
+    await people.own_by(given)
 
 
 def config(app: object, settings: Settings) -> uvicorn.Config:

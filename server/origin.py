@@ -44,19 +44,18 @@ class RemoteNotAllowed(ServiceError):
 
 
 def check_bind(settings: Settings) -> None:
-    """Refuse to listen on an address that others reach, unless that was asked for.
+    """Refuse to listen, without a login, on an address that others reach.
 
     Raises:
         RemoteNotAllowed: says how to publish the service safely.
     """
-    if settings.loopback or settings.login or settings.allow_remote:
+    if settings.loopback or settings.login:
         return
     raise RemoteNotAllowed(
         403,
         f"{settings.host} can be reached by others, and there is no login: whoever reaches the port can move the robot",
         remedy="set SEED_LOGIN=1: the service then asks everybody who they are (docs/people.md); or reach it through a "
-        f"tunnel (ssh -L {settings.port}:127.0.0.1:{settings.port} thismachine); inside a container, or behind a proxy "
-        "that authenticates, set SEED_ALLOW_REMOTE=1",
+        f"tunnel (ssh -L {settings.port}:127.0.0.1:{settings.port} thismachine)",
     )
 
 
@@ -113,8 +112,8 @@ class Guard:
         name = _name(host)
         if name in LOOPBACK_NAMES or name in self.settings.allowed_hosts:
             return True
-        # rebinding needs a name; an address in numbers is safe where remote use is allowed
-        return (self.settings.allow_remote or self.settings.login) and _is_address(name)
+        # rebinding needs a name; an address in numbers is safe where everybody is asked who they are
+        return self.settings.login and _is_address(name)
 
     def _known_origin(self, origin: str, host: str) -> bool:
         netloc = urlsplit(origin).netloc.lower()

@@ -31,13 +31,13 @@ class Settings(BaseSettings):
             description="ask everybody who they are. The first start prints the owner's token; the owner invites others"
         ),
     ] = False
-    allow_remote: Annotated[
-        bool,
+    owner_token_file: Annotated[
+        Path | None,
         Field(
-            description="listen, without a login, on an address that others can reach: whoever reaches the port can "
-            "move the robot. Set it only inside a container or behind a proxy that authenticates"
+            description="file that holds the owner's token, at least 32 characters, with a login: a container's "
+            "secret. A new token in it ends the owner's sessions at the next start; none: the first start makes one"
         ),
-    ] = False
+    ] = None
     root_path: Annotated[
         str,
         Field(
@@ -56,8 +56,8 @@ class Settings(BaseSettings):
         str,
         Field(
             pattern=r"^[1-9][0-9]{0,8}/(second|minute|hour)$",
-            description="with a login, requests of one person, and of all strangers at one address; an emergency "
-            "stop is always taken",
+            description="with a login, requests of one person, messages of a stream's session, and requests of all "
+            "strangers at one address; an emergency stop is always taken",
         ),
     ] = "6000/minute"
     allowed_hosts: Annotated[

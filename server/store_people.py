@@ -135,9 +135,15 @@ class PeopleStore:
         query = select(PersonRow.id).where(PersonRow.role == Role.OWNER.value, PersonRow.revoked_at.is_(None)).limit(1)
         return await self._database.read(lambda session: session.scalar(query)) is not None
 
-    async def owner_token(self) -> str:
+    async def own_by(self, token: str) -> None:
+        """Have this be the owner's token, as it is already or from now on; then those of before end."""
+        who = await self.who(token)
+        if who is None or who.name != OWNER or who.role is not Role.OWNER:
+            await self.owner_token(token)
+
+    async def owner_token(self, given: str | None = None) -> str:
         """A new token of the owner. Those of before, and every session of the owner, end."""
-        made = new_token()
+        made = given or new_token()
 
         def make(session: Session) -> None:
             person = session.scalars(select(PersonRow).where(PersonRow.name == OWNER)).one_or_none()

@@ -97,10 +97,30 @@ def test_serve_says_when_its_port_is_in_use_and_touches_nothing(tmp_path: Path) 
 
 
 def test_serve_refuses_addresses_and_settings_that_are_wrong(tmp_path: Path) -> None:
-    refused(seed("serve", "--host", "0.0.0.0", "--data-dir", tmp_path), 2, "no login", "ssh -L", "SEED_ALLOW_REMOTE")
-    refused(seed("serve", "--host", "no.such.host.invalid", "--data-dir", tmp_path, SEED_ALLOW_REMOTE="1"), 2)
+    refused(seed("serve", "--host", "0.0.0.0", "--data-dir", tmp_path), 2, "no login", "ssh -L", "SEED_LOGIN")
+    refused(seed("serve", "--host", "no.such.host.invalid", "--data-dir", tmp_path, SEED_LOGIN="1"), 2)
     refused(seed("serve", "--port", "70000", "--data-dir", tmp_path), 2, "port")
     refused(seed("serve", SEED_LOG_LEVEL="loud", SEED_DATA_DIR=str(tmp_path)), 2, "SEED_LOG_LEVEL")
+
+
+def test_the_owner_s_token_of_a_file_opens_the_service_and_a_short_one_is_refused(tmp_path: Path) -> None:
+    secret = tmp_path / "owner_token"
+    serve = ("serve", "--host", "0.0.0.0", "--port", 0, "--data-dir", tmp_path / "data")
+    settings = {"SEED_LOGIN": "1", "SEED_OWNER_TOKEN_FILE": str(secret)}
+    refused(seed(*serve, **settings), 2, "SEED_OWNER_TOKEN_FILE")
+    secret.write_text("0123456789", "utf-8")
+    refused(seed(*serve, **settings), 2, "10 characters")
+    secret.write_text("the-token-of-the-owner-of-this-laboratory\n", "utf-8")
+    process = begun(*serve, **settings)
+    try:
+        url = url_of(process)  # no other way in is told
+        assert "join" not in url
+        bearer = {"Authorization": f"Bearer {secret.read_text('utf-8').strip()}"}
+        assert httpx.get(f"{url}/api/v1/me", headers=bearer).json()["role"] == "owner"
+        assert httpx.get(f"{url}/api/v1/experiments").status_code == 401
+    finally:
+        process.terminate()
+        process.communicate()
 
 
 def test_serve_says_what_is_wrong_with_its_database(tmp_path: Path) -> None:

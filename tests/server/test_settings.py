@@ -41,7 +41,7 @@ def test_settings_come_from_the_environment_and_arguments_win(monkeypatch: pytes
         ("PORT", "http"),
         ("LOG_LEVEL", "loud"),
         ("CHECKPOINT_EVERY", "0"),
-        ("ALLOW_REMOTE", "perhaps"),
+        ("LOGIN", "perhaps"),
     ],
 )
 def test_a_wrong_value_is_an_error_that_names_its_setting(
@@ -54,12 +54,12 @@ def test_a_wrong_value_is_an_error_that_names_its_setting(
 
 
 @pytest.mark.parametrize("host", ["0.0.0.0", "::", "192.168.1.5", "robot.lab.example"])
-def test_an_address_that_others_reach_is_refused_unless_asked_for(host: str) -> None:
+def test_an_address_that_others_reach_is_refused_without_a_login(host: str) -> None:
     with pytest.raises(ServiceError) as refused:
         check_bind(Settings(host=host))
     assert "ssh -L" in refused.value.remedy
-    assert "SEED_ALLOW_REMOTE" in refused.value.remedy
-    check_bind(Settings(host=host, allow_remote=True))
+    assert "SEED_LOGIN=1" in refused.value.remedy
+    check_bind(Settings(host=host, login=True))
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "127.0.0.2", "localhost", "::1"])
