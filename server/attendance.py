@@ -14,9 +14,19 @@ ANYBODY = "nobody attends the robot"
 class Attendance:
     """One experiment's. Used from one event loop."""
 
-    def __init__(self, told: Callable[[str | None], None], *, clock: Callable[[], float] = time.monotonic) -> None:
-        """Begin with nobody. told: is called with the name of whoever attends from now on, None for nobody."""
+    def __init__(
+        self,
+        told: Callable[[str | None], None],
+        *,
+        lapsed: Callable[[str], None] = lambda _: None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """Begin with nobody. told: is called with the name of whoever attends from now on, None for nobody.
+
+        lapsed: is called with the name of whoever hasn't said in time that they are still there.
+        """
         self._told = told
+        self._lapsed = lapsed
         self._clock = clock
         self._name: str | None = None
         self._until = 0.0
@@ -32,8 +42,8 @@ class Attendance:
         """Whether anybody does."""
         return self.operator is not None
 
-    def take(self, name: str, seconds: float) -> None:
-        """`name` attends for so long from now.
+    def must_be_free_for(self, name: str) -> None:
+        """Nobody else may attend it.
 
         Raises:
             Conflict: somebody else does.
@@ -41,6 +51,15 @@ class Attendance:
         holder = self.operator
         if holder is not None and holder != name:
             raise Conflict(f"{holder} attends the robot", remedy=f"wait until {holder} has left, or ask them to")
+
+    def take(self, name: str, seconds: float) -> None:
+        """`name` attends for so long from now.
+
+        Raises:
+            Conflict: somebody else does.
+        """
+        self.must_be_free_for(name)
+        holder = self.operator
         self._name, self._until = name, self._clock() + seconds
         if self._lapse is not None:
             self._lapse.cancel()
@@ -48,14 +67,17 @@ class Attendance:
         if holder != name:
             self._told(name)
 
-    def leave(self, name: str) -> None:
-        """`name` attends no longer; nothing happens where somebody else does."""
-        if self._name == name:
-            self._until = 0.0
-            self._look()
+    def leave(self, name: str) -> bool:
+        """`name` attends no longer; False where they didn't."""
+        if self._name != name:
+            return False
+        self._until, self._name = 0.0, None
+        self._told(None)
+        return True
 
     def _look(self) -> None:
         """Tell that it is over, once."""
         if self._name is not None and not self.present:
-            self._name = None
+            name, self._name = self._name, None
             self._told(None)
+            self._lapsed(name)

@@ -6,14 +6,14 @@ from typing import Any
 
 from server.runner import Runner
 from server.schemas import Lifecycle
-from server.store import Conflict
+from server.store import Conflict, Store
 from server.worker import CommandFailed
 
 UNFIT = {"NotEnough", "TooInaccurate", "Refusal"}
 """What the worker calls it where the poses won't do, or none were taken: that is for people to put right."""
 
 
-async def guide(runner: Runner, step: str, **arguments: Any) -> dict[str, Any]:
+async def guide(runner: Runner, store: Store, step: str, **arguments: Any) -> dict[str, Any]:
     """Do one step. Nothing moves by it.
 
     Raises:
@@ -35,6 +35,8 @@ async def guide(runner: Runner, step: str, **arguments: Any) -> dict[str, Any]:
             raise
         raise Conflict(str(refusal), remedy=refusal.remedy) from refusal
     station.forget()  # what was seen before was seen by other cameras
+    if step == "guide_store":
+        await store.add_event(runner.experiment.id, "cameras_calibrated", {"apart_mm": told.get("apart_mm")})
     return told
 
 

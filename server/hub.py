@@ -9,7 +9,7 @@ from datetime import UTC, datetime
 from typing import Any, Literal
 
 from robot_adapters import registry
-from server import auto_approval, catalogue
+from server import auto_approval, catalogue, tending
 from server.desk import Desk
 from server.guiding import guide, under_way
 from server.lifecycle import MOVING
@@ -200,41 +200,24 @@ class Hub:
             return evaluation
 
     async def attend(self, experiment_id: int, operator: str, seconds: float) -> None:
-        """Somebody stands at the real robot of this experiment.
-
-        Raises:
-            NotFound: no such experiment. Conflict: somebody else does, or the robot is a simulated one.
-        """
-        attendance = (await self._runner(experiment_id)).attendance
-        if attendance is None:
-            raise Conflict("a simulated robot needs nobody to attend it", remedy="just start the experiment")
-        attendance.take(operator, seconds)
+        """Somebody stands at the real robot of this experiment; see `server.tending`."""
+        await tending.attend(await self._runner(experiment_id), self.store, operator, seconds)
 
     async def leave(self, experiment_id: int, operator: str) -> None:
-        """They have left.
+        """They have left."""
+        await tending.leave(await self._runner(experiment_id), self.store, operator)
 
-        Raises:
-            NotFound: no such experiment.
-        """
-        attendance = (await self._runner(experiment_id)).attendance
-        if attendance is not None:
-            attendance.leave(operator)
-
-    async def tend(self, experiment_id: int, what: Literal["home", "recover"]) -> Experiment:
-        """Do what an operator asks of the arm itself.
-
-        Raises:
-            NotFound: no such experiment. Conflict: not now, and why. CommandFailed: the arm can't, and why.
-        """
+    async def tend(self, experiment_id: int, what: tending.Order) -> Experiment:
+        """Do what an operator asks of the arm itself."""
         async with self._verbs[experiment_id]:
             runner = await self._runner(experiment_id)
-            await runner.tend(what)
+            await tending.tend(runner, self.store, what)
             return runner.experiment
 
     async def guide(self, experiment_id: int, step: str, **arguments: Any) -> dict[str, Any]:
         """One step of a calibration of the cameras; see `server.guiding`."""
         async with self._verbs[experiment_id]:
-            return await guide(await self._runner(experiment_id), step, **arguments)
+            return await guide(await self._runner(experiment_id), self.store, step, **arguments)
 
     async def guide_state(self, experiment_id: int) -> dict[str, Any]:
         """The calibration of the cameras that goes on, if one does."""

@@ -16,13 +16,14 @@ from typing import Any, Literal
 from agent.algorithm import AgentError
 from robot_adapters import registry
 from robot_adapters.base import AdapterError
-from server.attendance import ANYBODY, Attendance
+from server.attendance import Attendance
 from server.course import Course, Work
 from server.crew import Crew
 from server.images import Images
 from server.ledger import Ledger
 from server.lifecycle import Verb
 from server.messages import AttendanceChanged, FrameHeader, StreamEvent
+from server.principal import SERVICE, acting
 from server.publisher import Publisher
 from server.quota import Quota
 from server.rollouts import roll_out
@@ -52,7 +53,9 @@ class Runner:
         self._store = store
         self._publisher = publisher
         factory = registry.adapters().get(experiment.adapter)  # an experiment whose plug-in is gone can be looked at
-        self.attendance = None if factory is None or factory.simulated else Attendance(self._attended_by)
+        self.attendance = (
+            None if factory is None or factory.simulated else Attendance(self._attended_by, lapsed=self._lapsed)
+        )
         """Of a real robot."""
         self.witness = Witness(experiment.id, store, Images(settings.data_dir), self._publish)
         self.crew = Crew(
@@ -175,29 +178,6 @@ class Runner:
         for station in self.stations:
             if robot in (None, station.robot.index):
                 await station.want_reset()
-
-    async def tend(self, what: Literal["home", "recover"]) -> None:
-        """Do what an operator asks of the arm itself, while no loop goes on.
-
-        Raises:
-            Conflict: it moves by proposals, nobody attends it, or a stop is latched.
-            CommandFailed, WorkerDied: the arm can't do it, or its worker is gone.
-        """
-        if self.attendance is None:
-            raise Conflict("this robot is a simulated one", remedy="reset the episode instead")
-        if self.experiment.lifecycle is Lifecycle.RUNNING:
-            raise Conflict(f"can't {what} while the experiment runs", remedy="pause it first")
-        await self.idle()  # what is on its way comes to its end
-        if not self.attendance.present:
-            raise Conflict(ANYBODY, remedy="attend it first: stand where you see it and can reach its stop button")
-        if what == "home" and self.crew.halted:
-            raise Conflict("the emergency stop is latched", remedy="re-arm the experiment first")
-        await self._first.mend()
-        await self._first.robot.post.fill()
-        await (self._first.robot.home() if what == "home" else self._first.robot.recover())
-        self._first.forget()
-        payload = {"operator": self.attendance.operator}
-        await self._store.add_event(self.experiment.id, "robot_homed" if what == "home" else "robot_recovered", payload)
 
     async def withdraw(self) -> None:
         """Close every open proposal without a verdict."""
@@ -375,6 +355,13 @@ class Runner:
 
     def _attended_by(self, operator: str | None) -> None:
         self._publish(AttendanceChanged(operator=operator))
+
+    def _lapsed(self, operator: str) -> None:
+        async def store() -> None:
+            acting.set(SERVICE)  # they have said nothing
+            await self._store.add_event(self.experiment.id, "unattended", {"operator": operator, "lapsed": True})
+
+        self._soon(store())
 
     def _insist(self, task: asyncio.Task[None] | None, moving: Sequence[Station]) -> None:
         """The emergency stop's last word: a robot worker that still moves is killed."""

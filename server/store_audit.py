@@ -18,7 +18,8 @@ DECISIONS = frozenset(
     {
         *("created", "updated", "start", "pause", "resume", "finish", "halt", "rearm", "reset", "archive"),
         *("gate", "execution_started", "execution_reported", "evaluation_started"),
-        *("relabelled", "undone", "gold_marked", "gold_unmarked", "auto_approved"),
+        *("relabelled", "undone", "gold_marked", "gold_unmarked", "auto_approved", "practised"),
+        *("attended", "unattended", "home_ordered", "recover_ordered", "cameras_calibrated"),
     }
 )
 """Kinds of lines of an experiment's journal that are decisions. Clicks and access are recorded by name."""

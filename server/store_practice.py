@@ -12,6 +12,7 @@ from server.models_quality import PracticeRow, QualificationRow
 from server.schemas_labels import label_of
 from server.schemas_practice import PracticeAnswer, PracticeProgress
 from server.schemas_quality import PracticeRequired, Share
+from server.store_audit import record
 from server.store_errors import Conflict, NotFound
 from server.store_experiments import journal, load, now
 from server.store_labels import trainer
@@ -66,6 +67,7 @@ def answer(session: Session, practice_id: int, body: PracticeAnswer) -> Practice
     row.click_id, row.value, row.answered_at = body.click_id, label_of(body.value), now()
     session.flush()
     experiment = load(session, row.experiment_id)
+    record(session, "practised", experiment.id, by=row.trainer.name, practice=row.id, value=row.value)
     told = progress(session, experiment, row.trainer.name)
     if experiment.practice_required is not None and told.passed and not told.counts:
         session.add(QualificationRow(experiment_id=experiment.id, trainer_id=row.trainer_id, at=now()))
