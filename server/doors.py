@@ -66,6 +66,15 @@ class Doors:
             self._rates.ask("person", str(who.person_id))
         return who
 
+    def pace(self, who: Principal) -> None:
+        """Count a message of a stream: of one session, however many streams it has open.
+
+        Raises:
+            ServiceError: 429, they send too many.
+        """
+        if self.login:
+            self._rates.ask("session", str(who.session_id))
+
     async def watch(self, presence: Presence) -> None:
         """Close the streams of those whose access runs out, or was ended by another process; until it is cancelled.
 

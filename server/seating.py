@@ -98,7 +98,7 @@ class Seating:
         if self.proposal_of(trainer) == proposal.id:
             return None
         holder = next((name for name, seat in self._seats.items() if seat.proposal == proposal.id), None)
-        return None if holder is None else f"it is before {holder} now, and waits for what they say of it"
+        return None if holder is None else "it is before another trainer now, and waits for what they say of it"
 
     def finishing(self, trainer: str) -> Proposal | None:
         """The closed proposal that this trainer may still judge."""

@@ -88,7 +88,7 @@ def trainer(session: Session, name: str, kind: str) -> TrainerRow:
 
 def _must_be_correctable(row: FeedbackRow, proposal: ProposalRow, by: str, *, anybodys: bool) -> None:
     if row.trainer.name != by and not anybodys:
-        raise Conflict(f"this click is {row.trainer.name}'s, not {by}'s", remedy="correct your own clicks")
+        raise Conflict(f"this click is somebody else's, not {by}'s", remedy="correct your own clicks")
     if proposal.purpose != "training":
         raise Conflict("an evaluation's approval is no label", remedy="judge the proposals of a running experiment")
     if row.status not in COUNTING:

@@ -124,7 +124,7 @@ class Reads:
             of = session.get_one(models.ProposalRow, row.proposal_id)
             if of.closed_at is None and row.status == "stored" and row.trainer.name != asker:
                 raise Conflict(
-                    f"what {row.trainer.name} said of proposal {of.id} is told once it is closed",
+                    f"what others said of proposal {of.id} is told once it is closed",
                     remedy="ask again then: others are still to judge it",
                 )
             return wire.feedback(row)

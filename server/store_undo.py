@@ -91,7 +91,7 @@ def undo(session: Session, feedback_id: int, *, keep: Collection[int] = (), by: 
     if row is None:
         raise NotFound("feedback", feedback_id)
     if by is not None and row.trainer.name != by:
-        raise Conflict(f"this click is {row.trainer.name}'s, not {by}'s", remedy="take your own clicks back")
+        raise Conflict(f"this click is somebody else's, not {by}'s", remedy="take your own clicks back")
     reason = why_not_undoable(session, row)
     if reason is not None:
         raise Conflict(f"this feedback can't be undone: {reason}", remedy="go on with the open proposal")

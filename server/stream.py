@@ -13,7 +13,7 @@ import json
 import struct
 import time
 from collections import defaultdict, deque
-from collections.abc import Coroutine, Iterator
+from collections.abc import Callable, Coroutine, Iterator
 from contextlib import contextmanager
 from typing import Any
 
@@ -21,7 +21,7 @@ from fastapi import WebSocket, WebSocketDisconnect
 from pydantic import TypeAdapter, ValidationError
 
 from server.backlog import Backlog
-from server.errors import problem, problem_of
+from server.errors import ServiceError, problem, problem_of
 from server.hub import Hub
 from server.messages import (
     Acknowledged,
@@ -39,9 +39,12 @@ from server.messages import (
     StreamEvent,
 )
 from server.presence import Visit
+from server.principal import Principal
+from server.privacy import Telling
 from server.roles import refusal
 from server.schemas import Feedback, FeedbackCreate
 from server.schemas_labels import RelabelCreate
+from server.schemas_problems import Problem
 from server.store import Store
 from server.store_errors import NotFound, StoreError
 
@@ -51,11 +54,14 @@ SIGNED_OUT = 4401
 """Close code of a stream whose viewer's access has ended; 4000 and up are an application's own."""
 RUBBISH_LIMIT = 20
 """Unreadable messages after which a viewer is disconnected; a page of ours sends none."""
+HASTE_LIMIT = 200
+"""Messages in a row that came too fast: who goes on after so many refusals costs the others, and is disconnected."""
 INBOX_LIMIT = 64
 """Messages of one viewer that may wait for the store."""
 FAREWELL_SECONDS = 30.0
 """How long a close frame may wait for a viewer that has stopped reading."""
 
+Pace = Callable[[Principal], None]
 Request = ClientFeedback | ClientRelabel | ClientUndo
 
 _client_message: TypeAdapter[ClientMessage] = TypeAdapter(ClientMessage)
@@ -70,7 +76,9 @@ def pack(header: FrameHeader, jpeg: bytes) -> bytes:
 class Outbox:
     """What waits for one viewer. Fed without blocking; taken from by one sender."""
 
-    def __init__(self, limit: int) -> None:
+    def __init__(self, limit: int, reader: str | None = None) -> None:
+        """reader: who may not know the names of others; None: they may."""
+        self.reader = reader
         self._limit = limit
         self._events: deque[str] = deque()
         self._frames: dict[tuple[int, str], bytes] = {}
@@ -132,20 +140,20 @@ class Rooms:
         backlog = self._backlogs.get(experiment_id)
         return 0 if backlog is None else backlog.newest
 
-    def missed(self, experiment_id: int, since: int) -> list[str] | None:
-        """The events after that number, in order; None where they aren't known any more."""
+    def missed(self, experiment_id: int, since: int, reader: str | None = None) -> list[str] | None:
+        """The events after that number, in order, as `reader` may hear them; None where they aren't known any more."""
         backlog = self._backlogs.get(experiment_id)
         events = None if backlog is None else backlog.since(since)
-        return None if events is None else [event.model_dump_json() for event in events]
+        return None if events is None else [Telling(event).to(reader) for event in events]
 
     def publish(self, experiment_id: int, event: StreamEvent) -> None:
         """Queue an event for every viewer of the experiment; never blocks."""
         numbered = self._backlogs[experiment_id].add(event)
         room = self._rooms.get(experiment_id)
         if room:
-            text = numbered.model_dump_json()
+            telling = Telling(numbered)
             for outbox in room:
-                outbox.event(text)
+                outbox.event(telling.to(outbox.reader))
 
     def publish_frame(self, experiment_id: int, header: FrameHeader, jpeg: bytes) -> None:
         """Offer a frame to every viewer of the experiment; never blocks."""
@@ -156,9 +164,9 @@ class Rooms:
                 outbox.frame(header.robot, header.camera, packed)
 
     @contextmanager
-    def join(self, experiment_id: int) -> Iterator[Outbox]:
-        """An outbox that receives everything published from now on."""
-        outbox = Outbox(self._queue_limit)
+    def join(self, experiment_id: int, reader: str | None = None) -> Iterator[Outbox]:
+        """An outbox that receives everything published from now on, as `reader` may hear it."""
+        outbox = Outbox(self._queue_limit, reader)
         room = self._rooms.setdefault(experiment_id, set())
         room.add(outbox)
         try:
@@ -173,9 +181,21 @@ class Connection:
     """One viewer's WebSocket on one experiment."""
 
     def __init__(
-        self, socket: WebSocket, outbox: Outbox, hub: Hub, store: Store, visit: Visit, *, trainer: str | None = None
+        self,
+        socket: WebSocket,
+        outbox: Outbox,
+        hub: Hub,
+        store: Store,
+        visit: Visit,
+        *,
+        pace: Pace,
+        trainer: str | None = None,
     ) -> None:
-        """trainer: whose page it is; None: somebody's who only watches, or whose clicks say who they are."""
+        """Be a viewer's side of it.
+
+        pace: counts a message, and refuses what is too much. trainer: whose page it is; None: somebody's who only
+        watches, or whose clicks say who they are.
+        """
         self._socket = socket
         self._outbox = outbox
         self._hub = hub
@@ -186,7 +206,9 @@ class Connection:
         self._trainer = trainer
         self._inbox: asyncio.Queue[Request] = asyncio.Queue(INBOX_LIMIT)
         self._going: set[asyncio.Task[None]] = set()
+        self._pace = pace
         self._rubbish = 0
+        self._haste = 0
 
     async def serve(self) -> None:
         """Run until either side ends."""
@@ -205,6 +227,8 @@ class Connection:
             await self._close(TRY_AGAIN_LATER, "too slow: reconnect for a snapshot")
         elif self._rubbish >= RUBBISH_LIMIT:
             await self._close(POLICY_VIOLATION, "too many unreadable messages")
+        elif self._haste >= HASTE_LIMIT:
+            await self._close(POLICY_VIOLATION, "too many messages")
         for task in done:
             error = task.exception()
             if error is not None and not isinstance(error, WebSocketDisconnect):
@@ -222,7 +246,7 @@ class Connection:
                 await self._socket.send_bytes(message)
 
     async def _receive(self) -> None:
-        while self._rubbish < RUBBISH_LIMIT:
+        while self._rubbish < RUBBISH_LIMIT and self._haste < HASTE_LIMIT:
             received = await self._socket.receive()
             if received["type"] == "websocket.disconnect":
                 return
@@ -239,7 +263,8 @@ class Connection:
             self._refuse_rubbish(".".join([*map(str, first["loc"]), first["msg"]]), _request_id(text))
             return
         self._visit.heard_at = time.monotonic()
-        if (refused := refusal(self._who, message.type)) is not None:
+        refused = refusal(self._who, message.type) or self._too_fast(message)
+        if refused is not None:
             self._answer(Refused(request_id=_request_id(text), problem=refused))
         elif isinstance(message, ClientFrameAck):
             self._outbox.acknowledged()
@@ -259,6 +284,18 @@ class Connection:
                     503, "too many messages wait for an answer", remedy="wait for the answers, send again"
                 )
                 self._answer(Refused(request_id=_id_of(message), problem=details))
+
+    def _too_fast(self, message: ClientMessage) -> Problem | None:
+        """A stop is always taken, and a picture is only acknowledged as often as one was sent."""
+        if isinstance(message, ClientHalt | ClientFrameAck):
+            return None
+        try:
+            self._pace(self._who)
+        except ServiceError as error:
+            self._haste += 1
+            return error.problem
+        self._haste = 0
+        return None
 
     async def _work(self) -> None:
         while True:
@@ -323,7 +360,7 @@ class Connection:
         self._answer(Refused(request_id=request_id, problem=details))
 
     def _answer(self, event: Acknowledged | Refused | Pong) -> None:
-        self._outbox.event(event.model_dump_json())
+        self._outbox.event(Telling(event).to(self._outbox.reader))
 
     async def _close(self, code: int, reason: str) -> None:
         # the close frame stands behind what the viewer hasn't read

@@ -50,6 +50,16 @@ def figures(clicks: Sequence[Click], estimates: Mapping[int, Estimate], *, own: 
     return sorted(made, key=lambda each: (each.kind, each.trainer))
 
 
+def nothing_yet(name: str) -> TrainerFigures:
+    """One's own figures before the first click."""
+    none = Share(count=0, of=0)
+    counts = dict.fromkeys(("labels", "good", "neutral", "bad", "cant_tell", "late", "relabelled", "streak"), 0)
+    shares = dict.fromkeys(("with_verdicts", "with_others", "gold"), none)
+    return TrainerFigures.model_validate(
+        {"trainer": name, "kind": "person", "per_minute": None, "estimate": None, **counts, **shares}
+    )
+
+
 def _figures(own: Sequence[Click], all_of: Mapping[int, Sequence[Click]], estimate: Estimate | None) -> TrainerFigures:
     counted = [click for click in own if click.status in COUNTING]
     labels = [click.label for click in counted if click.label is not None]

@@ -7,6 +7,7 @@ from typing import Annotated
 from fastapi import APIRouter, Body, Query, Response
 
 from server.errors import late_feedback
+from server.privacy import veiled
 from server.routes.dependencies import Cursor, Id, Limit, Running, Who, errors
 from server.schemas import Feedback, FeedbackCreate, FeedbackPage, FeedbackStatus
 from server.schemas_labels import RelabelCreate
@@ -53,22 +54,24 @@ async def give_feedback(
 
 @router.get("/proposals/{proposal_id}/feedback", responses=errors(404, 422))
 async def list_feedback_of_proposal(
-    service: Running, proposal_id: Id, cursor: Cursor = None, limit: Limit = 50
+    service: Running, who: Who, proposal_id: Id, cursor: Cursor = None, limit: Limit = 50
 ) -> FeedbackPage:
-    """Feedback on one proposal, newest first; what was said is told once it is closed."""
-    return await service.store.feedback_of_proposal(proposal_id, cursor, limit, told=True)
+    """Feedback on one proposal, newest first; what was said is told once it is closed. Whose it is: to operators."""
+    return veiled(who, await service.store.feedback_of_proposal(proposal_id, cursor, limit, told=True))
 
 
 @router.get("/experiments/{experiment_id}/feedback", responses=errors(404, 422))
-async def list_feedback(service: Running, experiment_id: Id, cursor: Cursor = None, limit: Limit = 50) -> FeedbackPage:
+async def list_feedback(
+    service: Running, who: Who, experiment_id: Id, cursor: Cursor = None, limit: Limit = 50
+) -> FeedbackPage:
     """Feedback of an experiment, newest first, late and undone included; without votes on what is still open."""
-    return await service.store.feedback_of_experiment(experiment_id, cursor, limit, told=True)
+    return veiled(who, await service.store.feedback_of_experiment(experiment_id, cursor, limit, told=True))
 
 
 @router.get("/feedback/{feedback_id}", responses=errors(404, 409, 422))
 async def get_feedback(service: Running, who: Who, feedback_id: Id, trainer: Asker = None) -> Feedback:
     """One click as it is stored; somebody else's on an open proposal only once that is closed."""
-    return await service.store.told(feedback_id, (who.called(trainer) if trainer else who).name)
+    return veiled(who, await service.store.told(feedback_id, (who.called(trainer) if trainer else who).name))
 
 
 @router.post(

@@ -7,7 +7,8 @@ from typing import Annotated, Literal
 from fastapi import APIRouter, Path, Query
 
 from server import store_history
-from server.routes.dependencies import LARGEST_ID, Cursor, Id, Limit, Running, errors
+from server.privacy import veiled
+from server.routes.dependencies import LARGEST_ID, Cursor, Id, Limit, Running, Who, errors
 from server.schemas_history import Episode, EpisodePage, HistoryFilter, HistoryPage, Label
 
 router = APIRouter(prefix="/experiments/{experiment_id}", tags=["history"])
@@ -18,6 +19,7 @@ Number = Annotated[int, Path(ge=1, le=LARGEST_ID, description="the episode's num
 @router.get("/history", responses=errors(404, 422))
 async def list_history(  # noqa: PLR0917  FastAPI makes a query parameter of each
     service: Running,
+    who: Who,
     experiment_id: Id,
     skill: Annotated[str | None, Query(max_length=120)] = None,
     verdict: Literal["good", "neutral", "bad", "none"] | None = None,
@@ -41,7 +43,8 @@ async def list_history(  # noqa: PLR0917  FastAPI makes a query parameter of eac
         purpose=purpose,
         order=order,
     )
-    return await service.store.read(lambda s: store_history.history(s, experiment_id, wanted, cursor, limit))
+    found = await service.store.read(lambda s: store_history.history(s, experiment_id, wanted, cursor, limit))
+    return veiled(who, found)
 
 
 @router.get("/episodes", responses=errors(404, 422))

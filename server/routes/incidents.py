@@ -10,6 +10,7 @@ from fastapi.responses import FileResponse
 
 from server.errors import ServiceError
 from server.images import Images
+from server.privacy import veiled
 from server.routes.dependencies import Cursor, Id, Limit, Running, Who, errors
 from server.schemas import Execution
 from server.schemas_incidents import Incident, IncidentPage, ReportCreate
@@ -43,9 +44,9 @@ async def report_execution(
 
 
 @router.get("/executions/{execution_id}", responses=errors(404, 422))
-async def get_execution(service: Running, execution_id: Id) -> Execution:
+async def get_execution(service: Running, who: Who, execution_id: Id) -> Execution:
     """One execution."""
-    return await service.store.execution(execution_id)
+    return veiled(who, await service.store.execution(execution_id))
 
 
 @router.get("/experiments/{experiment_id}/incidents", responses=errors(404, 422))

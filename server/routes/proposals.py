@@ -10,6 +10,7 @@ from fastapi.responses import FileResponse
 
 from server.errors import ServiceError
 from server.images import Images
+from server.privacy import veiled
 from server.routes.dependencies import Cursor, Id, Limit, Running, Who, errors
 from server.schemas import Next, Proposal, ProposalPage
 from server.schemas_together import NextCreate
@@ -25,9 +26,11 @@ IMAGE: dict[int | str, dict[str, Any]] = {
 
 
 @router.get("/experiments/{experiment_id}/proposals", responses=errors(404, 422))
-async def list_proposals(service: Running, experiment_id: Id, cursor: Cursor = None, limit: Limit = 50) -> ProposalPage:
+async def list_proposals(
+    service: Running, who: Who, experiment_id: Id, cursor: Cursor = None, limit: Limit = 50
+) -> ProposalPage:
     """Proposals of an experiment, newest first."""
-    return await service.store.proposals(experiment_id, cursor, limit)
+    return veiled(who, await service.store.proposals(experiment_id, cursor, limit))
 
 
 @router.post("/experiments/{experiment_id}/next", responses=errors(400, 404, 413, 422))
@@ -41,13 +44,13 @@ async def next_proposal(
 
     A page hears of it by the stream; this is for clients without one. Whoever asks is there, as long as they go on.
     """
-    return await service.hub.seats.look(experiment_id, who.named(body).trainer)
+    return veiled(who, await service.hub.seats.look(experiment_id, who.named(body).trainer))
 
 
 @router.get("/proposals/{proposal_id}", responses=errors(404, 422))
-async def get_proposal(service: Running, proposal_id: Id) -> Proposal:
+async def get_proposal(service: Running, who: Who, proposal_id: Id) -> Proposal:
     """One proposal."""
-    return await service.store.proposal(proposal_id)
+    return veiled(who, await service.store.proposal(proposal_id))
 
 
 @router.get(

@@ -8,11 +8,11 @@ from fastapi import APIRouter, Body, Query, Response
 from fastapi.responses import StreamingResponse
 
 from server import export
-from server.errors import ServiceError
 from server.routes.dependencies import Cursor, Id, Limit, Running, Who, errors
 from server.routes.tables import TABLE, table
 from server.schemas_labels import TrainerName
 from server.schemas_quality import GoldMark, GoldPage, LabelQuality, TrainerFigures
+from server.trainer_figures import nothing_yet
 
 router = APIRouter(tags=["quality"])
 
@@ -31,9 +31,7 @@ async def get_own_figures(service: Running, who: Who, experiment_id: Id, trainer
     """One's own figures. Known answers are told in steps of five, so that no proposal is given away."""
     name = who.speaking_for(trainer)
     found = await service.store.quality.figures_of(experiment_id, name)
-    if found is None:
-        raise ServiceError(404, f"{name} has not clicked in this experiment", remedy="judge a proposal first")
-    return found
+    return found or nothing_yet(name)
 
 
 @router.get("/experiments/{experiment_id}/gold", responses=errors(404, 422))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter
 
 from server.principal import Role
+from server.privacy import veiled
 from server.routes.dependencies import Cursor, Id, Limit, Running, Who, errors
 from server.schemas import ExecutionPage
 from server.schemas_catalogue import TrainerPage
@@ -16,10 +17,10 @@ LISTED = errors(404, 422)
 
 @router.get("/experiments/{experiment_id}/executions", responses=LISTED)
 async def list_executions(
-    service: Running, experiment_id: Id, cursor: Cursor = None, limit: Limit = 50
+    service: Running, who: Who, experiment_id: Id, cursor: Cursor = None, limit: Limit = 50
 ) -> ExecutionPage:
     """Executions, newest first."""
-    return await service.store.executions(experiment_id, cursor, limit)
+    return veiled(who, await service.store.executions(experiment_id, cursor, limit))
 
 
 @router.get("/experiments/{experiment_id}/metrics", responses=LISTED)
@@ -34,7 +35,7 @@ async def list_events(
 ) -> EventPage:
     """The journal, oldest first. Which answers are known is told to operators only."""
     answers = who.role.covers(Role.OPERATOR)
-    return await service.store.events(experiment_id, cursor, limit, answers=answers)
+    return veiled(who, await service.store.events(experiment_id, cursor, limit, answers=answers))
 
 
 @router.get("/experiments/{experiment_id}/evaluations", responses=LISTED)

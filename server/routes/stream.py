@@ -12,6 +12,7 @@ from server.access import principal
 from server.errors import problem, problem_of, response
 from server.messages import ClientMessage, FrameHeader, Resumed, StreamEvent
 from server.principal import Role
+from server.privacy import Telling, reader
 from server.routes.dependencies import LARGEST_ID
 from server.service import Service
 from server.store_errors import StoreError
@@ -45,15 +46,17 @@ async def stream(socket: WebSocket, experiment_id: str, boot_id: str = "", since
     # and every event carries the whole of what it is about, so twice is harmless
     who = principal(socket)
     seat = who.called(trainer).name if trainer and who.role.covers(Role.TRAINER) else None
-    with service.rooms.join(watched) as outbox, service.hub.presence.visit(watched, who) as visit:
+    hears = reader(who)
+    with service.rooms.join(watched, hears) as outbox, service.hub.presence.visit(watched, who) as visit:
         newest = service.rooms.newest(watched)
-        missed = service.rooms.missed(watched, int(since[:20])) if same_run else None
-        connection = Connection(socket, outbox, service.hub, service.store, visit, trainer=seat)
+        missed = service.rooms.missed(watched, int(since[:20]), hears) if same_run else None
+        pace = service.doors.pace
+        connection = Connection(socket, outbox, service.hub, service.store, visit, pace=pace, trainer=seat)
         try:
             async with service.hub.seats.seated(watched, seat):
                 if missed is None:
                     snapshot = await service.hub.snapshot(watched, socket.app.state.boot_id, seat)
-                    first = [snapshot.model_copy(update={"seq": newest}).model_dump_json()]
+                    first = [Telling(snapshot.model_copy(update={"seq": newest})).to(hears)]
                 else:
                     await service.store.experiment(watched)
                     first = [Resumed(seq=newest, missed=len(missed)).model_dump_json(), *missed]

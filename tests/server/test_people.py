@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import csv
 import io
+import json
 import logging
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
@@ -20,7 +21,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from server.doors import COOKIE
 from server.store import Store
-from server.stream import SIGNED_OUT
+from server.stream import HASTE_LIMIT, SIGNED_OUT
 from tests.server.databases import click, opened, running
 from tests.server.serving import Serving, event, serving
 from tests.server.test_errors import check_problem
@@ -51,6 +52,11 @@ class House:
     def client(self, token: str) -> httpx.AsyncClient:
         """A client with a bearer token."""
         return httpx.AsyncClient(base_url=self.live.url, headers={"Authorization": f"Bearer {token}"}, timeout=60)
+
+
+def bearer(client: httpx.AsyncClient) -> dict[str, str]:
+    """The header by which a stream is this client's."""
+    return {"Authorization": client.headers["Authorization"]}
 
 
 @asynccontextmanager
@@ -167,6 +173,40 @@ async def test_wrong_tokens_are_tried_a_few_times_and_requests_have_a_rate(tmp_p
         told = [await home.live.http.get("/api/v1/me") for _ in range(20)][-1]
         assert check_problem(told, 429).type == "/problems/too-often"
         assert int(told.headers["Retry-After"]) >= 1
+
+
+async def test_a_session_that_sends_too_fast_is_told_so_and_can_always_stop_the_robot(tmp_path: Path) -> None:
+    async with house(tmp_path, rate_limit="30/hour") as home:
+        here = await experiment(home)
+        headers = {"additional_headers": bearer(home.owner)}
+        async with home.live.stream(here, **headers) as hasty, home.live.stream(here, **headers) as calm:
+            await event(hasty, "snapshot")
+            await event(calm, "snapshot")
+            for _ in range(30):
+                await hasty.send('{"type": "ping"}')
+            for _ in range(30):
+                await event(hasty, "pong")
+            # both streams are of one session
+            click = home.live.click(1) | {"type": "feedback", "proposal_id": 1}
+            await calm.send(json.dumps(click))
+            told = await event(calm, "refused")
+            assert (told["request_id"], told["problem"]["status"]) == (click["click_id"], 429)
+            assert "wait" in told["problem"]["remedy"]
+            await hasty.send('{"type": "halt", "request_id": "halt-request-1"}')
+            assert (await event(hasty, "acknowledged"))["request_id"] == "halt-request-1"
+            # who goes on costs the others, and is let go
+            for _ in range(HASTE_LIMIT):
+                await hasty.send('{"type": "ping"}')
+            with pytest.raises(ConnectionClosed) as closed:
+                await event(hasty, "never")
+            assert (closed.value.rcvd and closed.value.rcvd.reason) == "too many messages"
+            # other sessions have a count of their own
+            async with (
+                await home.enter(await home.invite(), "Ann") as ann,
+                home.live.stream(here, additional_headers=bearer(ann)) as other,
+            ):
+                await other.send('{"type": "ping"}')
+                await event(other, "pong")
 
 
 async def test_every_decision_is_in_the_audit_with_who_and_from_which_session(tmp_path: Path) -> None:

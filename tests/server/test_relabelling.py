@@ -66,7 +66,7 @@ async def test_what_counts_for_nothing_is_not_corrected_nor_what_is_open_nor_ano
     late = (await store.submit_feedback(proposal.id, click(-1, trainer="cyd"))).feedback
     with pytest.raises(Conflict, match="late"):
         await store.relabel(late.id, corrected(1, trainer="cyd"), anybodys=False)
-    with pytest.raises(Conflict, match="ann's, not bob's"):
+    with pytest.raises(Conflict, match="somebody else's, not bob's"):
         await store.relabel(anns.id, corrected(-1, trainer="bob"), anybodys=False)
     assert await _counted(store, experiment_id) == {"feedback": 2, "good": 2, "late": 1}
     done = await store.relabel(anns.id, corrected(-1, trainer="bob"), anybodys=True)

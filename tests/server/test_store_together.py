@@ -172,7 +172,7 @@ async def test_each_takes_back_the_own_newest_click_and_nobody_elses(store: Stor
     hers = (await voted(store, first, ann=-1)).feedback
     his = (await voted(store, second, bob=-1)).feedback
     assert (await store.undoable(experiment_id, "ann"), await store.undoable(experiment_id, "bob")) == (hers, his)
-    with pytest.raises(Conflict, match="ann's, not bob's"):
+    with pytest.raises(Conflict, match="somebody else's, not bob's"):
         await store.undo_feedback(hers.id, by="bob")
     # what came into its slot meanwhile is another's: it stays, and this one opens beside it
     (third,) = await beside(store, experiment_id, 1)

@@ -81,7 +81,7 @@ async def test_in_parallel_each_has_another_and_the_first_approved_closes_the_ot
         other = await say(s, "ann", first["bob"], 1)
         assert (other.status, other.late_because) == (
             FeedbackStatus.LATE,
-            "it is before bob now, and waits for what they say of it",
+            "it is before another trainer now, and waits for what they say of it",
         )
         # a rejected one moves nothing: whoever clicked gets the next, the others keep theirs
         await say(s, "ann", first["ann"], -1)
@@ -223,7 +223,7 @@ async def test_each_undoes_the_own_click_and_what_another_looks_at_stays(tmp_pat
         first = await judges(s, experiment.id, "ann", "bob")
         hers, his = await say(s, "ann", first["ann"], -1), await say(s, "bob", first["bob"], -1)
         second = await judges(s, experiment.id, "ann", "bob")
-        with pytest.raises(Conflict, match="bob's, not ann's"):
+        with pytest.raises(Conflict, match="somebody else's, not ann's"):
             await s.hub.undo(his.id, by="ann")
         await s.hub.undo(hers.id, by="ann")
         third = await judges(s, experiment.id, "ann", "bob")

@@ -12,6 +12,9 @@ export interface Click {
   value: Value;
 }
 
+/** Whether a click that was refused so is sent again: the service has a fault of its own, or it came too fast. */
+export const comesAgain = (status: number): boolean => status >= 500 || status === 429;
+
 export class Outbox {
   private readonly key: string;
   /** This tab's own clicks: they survive a storage that is full or forbidden. */

@@ -7,7 +7,7 @@ import * as http from "./http";
 import { t } from "./i18n";
 import { newId } from "./ids";
 import { ME } from "./me";
-import { type Click, Outbox } from "./outbox";
+import { type Click, comesAgain, Outbox } from "./outbox";
 import { Recording } from "./recording";
 import { type Action, initial, reduce, type TrainerState } from "./state";
 import { type Connection, Stream, streamUrl } from "./stream";
@@ -275,7 +275,7 @@ export class Session {
   }
 
   private onRefused(requestId: string, status: number): void {
-    if (status < 500) {
+    if (!comesAgain(status)) {
       this.outbox.remove(requestId);
       return;
     }

@@ -5,7 +5,7 @@ import { type History, loaded, remember, withExecution, withOwn } from "./histor
 import { skillName, t } from "./i18n";
 import { inOneLine, said } from "./i18n/said";
 import { ME } from "./me";
-import type { Click } from "./outbox";
+import { type Click, comesAgain } from "./outbox";
 import { isOpen, type Judged, type RobotState, STILL, saying, shownRobot } from "./robots";
 import { canStillUndo, wordFor } from "./selectors";
 import type { Connection } from "./stream";
@@ -370,9 +370,9 @@ function onAcknowledged(state: TrainerState, requestId: string, feedback: Feedba
 }
 
 function onRefused(state: TrainerState, requestId: string | null, problem: Problem): TrainerState {
-  // A fault of the service (disk full, ...) keeps the click: the session sends it again.
-  const kept = problem.status >= 500;
-  const pending = requestId && !kept ? without(state.pending, requestId) : state.pending;
+  // A fault of the service (disk full, ...) keeps the click, as does one that came too fast: it is sent again.
+  const pending =
+    requestId && !comesAgain(problem.status) ? without(state.pending, requestId) : state.pending;
   return withNotice({ ...state, pending }, "error", inOneLine(problem));
 }
 

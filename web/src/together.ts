@@ -5,6 +5,23 @@ import { ME } from "./me";
 import type { RobotState } from "./robots";
 import type { Experiment, Judge, Proposal, Value } from "./wire";
 
+/** How the word begins that stands for another trainer's name, for whoever isn't told it (server/privacy.py). */
+const VEILED = "somebody-";
+
+/** A trainer as this page may call them. */
+export const called = (name: string): string =>
+  name.startsWith(VEILED) ? t("together.others", { count: 1 }) : name;
+
+/** Names as a list; those that this page isn't told are counted. */
+function people(names: string[]): string {
+  const told = names.filter((name) => !name.startsWith(VEILED));
+  const count = names.length - told.length;
+  return listed(count > 0 ? [...told, t("together.others", { count })] : told);
+}
+
+/** Who is waited for, in words. */
+export const waitedFor = (proposal: Proposal): string => people(missing(proposal));
+
 export function judgeOf(judges: Judge[], trainer: string = ME): Judge | null {
   return judges.find((judge) => judge.trainer === trainer) ?? null;
 }
@@ -82,7 +99,8 @@ export function overtaken(
   seen: "no" | "seen" | "finishing",
 ): string | null {
   if (proposal.close_reason !== "superseded" || approved?.heard.includes(ME)) return null;
-  const who = approved?.heard.length ? listed(approved.heard) : t("together.somebody");
+  const told = approved?.heard.some((name) => !name.startsWith(VEILED));
+  const who = approved && told ? people(approved.heard) : t("together.somebody");
   if (said !== undefined && said !== "cant_tell")
     return t("together.stillTrains", { who, number: proposal.number });
   if (seen === "no") return null;

@@ -122,6 +122,9 @@ describe("a majority", () => {
     expect(said({ heard: ["ann"] })).toBe("1 of 3 votes are in. 2 alike decide.");
     expect(said({ heard: ["ann", "local"] })).toBe("2 of 3 votes are in. Waiting for bob.");
     expect(said({ electorate: ["ann", "bob"] })).toContain("You came after it opened");
+    // an operator is told the names, a trainer how many
+    const veiled = { electorate: ["somebody-3fa2c1", "somebody-77b0aa", "local"], heard: ["local"] };
+    expect(said(veiled)).toBe("1 of 3 votes are in. Waiting for 2 other trainers.");
   });
 
   it("is still open after one's own vote, which can be taken back", () => {

@@ -40,7 +40,7 @@ export function OwnFigures({ id, mine }: { id: number; mine: TrainerFigures | nu
   return (
     <section className="card" aria-label={t("quality.mine")} data-testid="own-figures">
       <h2>{t("quality.mine")}</h2>
-      {mine ? (
+      {mine && mine.labels + mine.cant_tell + mine.late > 0 ? (
         <dl className="figures">
           {facts.map(([name, value]) => (
             <div key={name}>

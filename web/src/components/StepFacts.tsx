@@ -3,6 +3,7 @@ import { labelOf } from "../gallery";
 import { skillName, t, taskWords } from "../i18n";
 import { decimal, moment, percent, signed } from "../i18n/numbers";
 import { type Moment, STAGES } from "../replaying";
+import { called } from "../together";
 import { LABELS } from "./History";
 
 export function StageLine({ moment: { entry, stage } }: { moment: Moment }) {
@@ -77,7 +78,7 @@ function Judged({ entry }: Pick<Moment, "entry">) {
           ];
           return (
             <li key={each.id}>
-              {[each.trainer, said && t(`judge.word.${said}`), moment(each.received_at), ...notes]
+              {[called(each.trainer), said && t(`judge.word.${said}`), moment(each.received_at), ...notes]
                 .filter(Boolean)
                 .join(" · ")}
             </li>

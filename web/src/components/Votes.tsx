@@ -1,10 +1,9 @@
 // How far the open proposal's votes are, where several trainers judge; never what anybody has said.
 import { useEffect, useState } from "react";
 import { t } from "../i18n";
-import { listed } from "../i18n/numbers";
 import { ME } from "../me";
 import { isOpen } from "../robots";
-import { asked, judgeOf, missing, needed } from "../together";
+import { asked, judgeOf, needed, waitedFor } from "../together";
 import type { Experiment, Judge, Proposal } from "../wire";
 
 export interface VotesProps {
@@ -39,8 +38,8 @@ export function votesIn(proposal: Proposal, experiment: Experiment, judges: Judg
   if (alone && others === 0) return null;
   const votes = t("together.votesIn", { heard: heard.length, count: electorate.length });
   if (heard.includes(ME)) {
-    const left = missing(proposal);
-    return left.length ? `${votes} ${t("together.waitingFor", { who: listed(left) })}` : votes;
+    const who = waitedFor(proposal);
+    return who ? `${votes} ${t("together.waitingFor", { who })}` : votes;
   }
   const mine = asked(proposal, experiment, judges);
   return `${votes} ${mine ? rule(proposal, experiment) : t("together.notAsked")}`;
