@@ -49,7 +49,7 @@ class Seating:
         self._clock = clock
         self._seats: dict[str, Seat] = {}
         self._timer: asyncio.TimerHandle | None = None
-        self._told: dict[str, tuple[int | None, bool, bool]] = {}
+        self._told: dict[str, tuple[int | None, bool, bool, bool]] = {}
         self._rule, self._together = Aggregation.FIRST, Together()
         self.opened: Callable[[], Sequence[Proposal]] = list
         """The open proposals of all robots."""
@@ -266,7 +266,10 @@ class Seating:
 
     def _tell(self) -> None:
         # without the times, which change with every look
-        now = {name: (seat.proposal, seat.left is None, seat.away) for name, seat in self._seats.items()}
+        now = {
+            name: (seat.proposal, seat.finishing is not None, seat.left is None, seat.away)
+            for name, seat in self._seats.items()
+        }
         if now != self._told:
             self._told = now
             self._publish(JudgesChanged(judges=self.judges))

@@ -215,6 +215,9 @@ async def test_what_another_approval_overtook_stays_until_it_is_judged_or_its_ti
         room.seats.arrive(name)
     overtaken, room.opened = room.opened[1:], [proposal(4)]
     room.seats.overtaken(overtaken)
+    told = room.told[-1]
+    assert isinstance(told, JudgesChanged)
+    assert [judge.trainer for judge in told.judges if judge.finishing] == ["bob", "cyd"]
     room.seats.deal()
     assert room.at == {"ann": 4, "bob": 2, "cyd": 3}
     assert room.seats.wanted(1) == 1  # who finishes needs nothing new yet
