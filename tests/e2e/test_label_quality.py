@@ -95,6 +95,8 @@ def test_everybodys_figures_are_shown_and_taken_away_as_a_table(
     expect(table.get_by_role("row", name="bob")).to_contain_text("75 % (3/4)")
     expect(trainer.test_id("agreement")).to_contain_text("from 4 proposals")
     expect(table.get_by_role("row", name="bob")).to_contain_text("labels)", timeout=START_MS)
+    # the same estimate, beside who is there
+    expect(trainer.test_id("judges").locator("tr", has_text="local")).to_contain_text(re.compile(r"[1-9]\d? %"))
     accessible(page)
     link = page.get_by_role("link", name="Feedback as CSV").get_attribute("href")
     rows = list(csv.DictReader(service.http.get(str(link)).text.splitlines()))

@@ -156,6 +156,26 @@ def test_in_parallel_each_of_five_has_another_until_one_is_approved(gather: Gath
         assert (closed["close_reason"], closed["superseded_by"]) == ("superseded", first["bob"])
 
 
+def test_the_robots_of_an_experiment_are_one_queue_for_whoever_is_there(gather: Gather) -> None:
+    team = gather(2, num_envs=2, together={"parallel": True}, adapter_settings=ENDLESS)
+    ann, bob = team
+
+    def each_at_another() -> tuple[int, int] | None:
+        hers, his = ann.drawn(), bob.drawn()
+        return (hers, his) if hers != his else None
+
+    hers, his = wait_for(each_at_another, "a robot's proposal each", START_MS / 1000)
+    assert {ann.stored(hers)["robot"], ann.stored(his)["robot"]} == {0, 1}
+    ann.press(1)
+    expect(ann.activity).to_contain_text("Executing", timeout=START_MS)
+    # the other robot's is judged meanwhile, and the queue goes on
+    assert bob.drawn() == his
+    bob.press(-1)
+    bob.drawn(max(hers, his))
+    assert executions(team)[0]["proposal_id"] == hers
+    assert bob.stored(his)["verdict"] == "bad"
+
+
 @pytest.mark.parametrize("later", [0, 60])  # so that either may be first, as a rule
 def test_taking_back_races_with_the_approval_that_needs_it_and_both_see_one_story(gather: Gather, later: int) -> None:
     team = gather(2, aggregation="majority", adapter_settings=ENDLESS)

@@ -612,7 +612,7 @@ export interface paths {
         };
         /**
          * List Feedback Of Proposal
-         * @description Feedback on one proposal, newest first; what was said is told once it is closed.
+         * @description Feedback on one proposal, newest first; what was said is told once it is closed. Whose it is: to operators.
          */
         get: operations["list_feedback_of_proposal"];
         put?: never;
