@@ -137,6 +137,11 @@ class Post:
         if self._worker is not None:
             self._worker.keep_alive()
 
+    def forsake(self) -> None:
+        """Tell whoever is there that nobody attends the robot any more."""
+        if self._worker is not None:
+            self._worker.forsake()
+
     def kill(self) -> None:
         """End whoever is there at once."""
         if self._worker is not None:

@@ -154,10 +154,12 @@ class Robot:
                 keeping.cancel()
 
     async def _keep_alive(self) -> None:
-        """Say that the robot is attended, again and again, as long as it is."""
+        """Say whether the robot is attended, again and again: silence means that it isn't, but takes its time."""
         while self._attended is not None:
             if self._attended():
                 self.post.keep_alive()
+            else:
+                self.post.forsake()
             await asyncio.sleep(KEEP_ALIVE)
 
     def _take_frame(self, header: bytes, jpeg: bytes) -> None:

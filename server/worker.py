@@ -17,7 +17,7 @@ import sys
 from collections.abc import Callable, Coroutine
 from typing import Any
 
-from server.workers.channel import ATTENDED, LENGTH, STOP
+from server.workers.channel import ATTENDED, FORSAKEN, LENGTH, STOP
 
 log = logging.getLogger(__name__)
 
@@ -180,6 +180,10 @@ class Worker:
     def keep_alive(self) -> None:
         """Tell a real robot's worker that it is still attended; without such words for a while its motion ends."""
         self.stop(ATTENDED)
+
+    def forsake(self) -> None:
+        """Tell a real robot's worker that nobody attends it any more: its motion ends at once."""
+        self.stop(FORSAKEN)
 
     def kill(self) -> None:
         """End the process at once."""

@@ -27,6 +27,8 @@ STOP = struct.Struct(">I")
 
 ATTENDED = 0
 """The number that is no stop: an operator attends the robot still."""
+FORSAKEN = 2**32 - 1
+"""Nor is this one: nobody attends it any more. Silence says the same, only later."""
 
 log = logging.getLogger(__name__)
 
@@ -111,7 +113,7 @@ class StopLatch:
         self._attended_at = -math.inf
 
     def forsaken(self, seconds: float) -> bool:
-        """Whether for so long nobody said that the robot is attended."""
+        """Whether for so long nobody said that the robot is attended, or somebody that it isn't any more."""
         self._read()
         return time.monotonic() - self._attended_at > seconds
 
@@ -139,7 +141,10 @@ class StopLatch:
                 number = STOP.unpack(self._pending[: STOP.size])[0]
                 if number == ATTENDED:
                     self._attended_at = time.monotonic()
-                self._newest = max(self._newest, number)
+                elif number == FORSAKEN:
+                    self._attended_at = -math.inf
+                else:
+                    self._newest = max(self._newest, number)
                 self._pending = self._pending[STOP.size :]
 
 
