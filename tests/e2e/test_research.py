@@ -225,4 +225,4 @@ def test_what_the_critic_thinks_is_drawn_beside_what_was_said(page: Page, servic
     judged_until(service, quiet, 2)
     service.post(f"/experiments/{quiet}/finish")
     page.goto(f"{service.url}/experiments/{quiet}/critic")
-    expect(page.get_by_test_id("critic-problem")).to_contain_text("scripted", timeout=START_MS)
+    expect(page.get_by_test_id("critic-problem")).to_contain_text("Scripted: this algorithm can't", timeout=START_MS)

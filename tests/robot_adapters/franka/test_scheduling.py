@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import threading
 from pathlib import Path
@@ -14,8 +15,12 @@ from tests.robot_adapters.franka.conftest import TABLE, Build, never
 
 
 def policies() -> set[int]:
-    """Of all threads of this process."""
-    return {os.sched_getscheduler(int(task.name)) for task in Path("/proc/self/task").iterdir()}
+    """Of all threads of this process, some of which another test may have left, and which may end meanwhile."""
+    found = set()
+    for task in Path("/proc/self/task").iterdir():
+        with contextlib.suppress(ProcessLookupError):
+            found.add(os.sched_getscheduler(int(task.name)))
+    return found
 
 
 @pytest.mark.parametrize("realtime", [False, True])
@@ -49,4 +54,4 @@ def test_a_driver_that_need_not_be_in_time_takes_no_core_from_anybody(backend: s
     result = adapter.execute(away, should_stop=lambda: steps >= 10, on_step=look)
     assert result.end is EndReason.STOPPED
     assert adapter.home(should_stop=never, on_step=look)
-    assert seen == {os.SCHED_OTHER}
+    assert not seen & {os.SCHED_FIFO, os.SCHED_RR}
