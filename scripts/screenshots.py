@@ -2,7 +2,7 @@
 
 `make screenshots` starts a service of its own on robosuite with a login, judges a few proposals as the task's rule
 would, has a noisy teacher judge some experiments on a table without physics, runs a small study, invites people, and
-looks. A page is added to PAGES; a test compares them with the page's code. Look at the pictures before you commit them.
+looks. A new page of the console is added to PAGES. Look at the pictures before you commit them.
 """
 
 from __future__ import annotations
@@ -40,8 +40,10 @@ TAUGHT = (60, 120, 180)
 """Labels of a teacher before each evaluation."""
 STUDY = "first-subgoal"
 PATIENCE = 300.0
-ALL_LOADED = """() => [...document.images].every((image) => image.complete ||
-    image.getBoundingClientRect().top > innerHeight)"""
+ALL_LOADED = """() => [...document.images].every((image) => {
+    const at = image.getBoundingClientRect()
+    return image.complete || at.top > innerHeight || at.left > innerWidth || at.right < 0
+})"""
 """Whether every picture in sight has come."""
 
 
