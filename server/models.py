@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from sqlalchemy import (
     JSON,
@@ -11,6 +11,7 @@ from sqlalchemy import (
     ColumnElement,
     ForeignKey,
     Index,
+    ScalarSelect,
     String,
     Text,
     UniqueConstraint,
@@ -20,7 +21,7 @@ from sqlalchemy import (
     text,
 )
 from sqlalchemy.ext.hybrid import hybrid_property
-from sqlalchemy.orm import Mapped, mapped_column, relationship
+from sqlalchemy.orm import InstrumentedAttribute, Mapped, mapped_column, relationship
 
 from server.models_base import Base, one_of
 
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
 COUNTING = ("stored", "overtaken")
 """Status of clicks that are feedback: counted, and learned from. Only those that are `stored` decide anything."""
 _COUNTS = text("status IN ('stored', 'overtaken') AND undone_at IS NULL")
+
+T = TypeVar("T")
 
 
 def _one_a_robot(name: str, where: str, *within: str) -> Index:
@@ -250,14 +253,7 @@ class FeedbackRow(Base):
     @label.inplace.expression
     @classmethod
     def _label_in_query(cls) -> ColumnElement[int | None]:
-        newest = (
-            select(RelabelRow.value)
-            .where(RelabelRow.feedback_id == cls.id)
-            .order_by(RelabelRow.id.desc())
-            .limit(1)
-            .correlate(cls)
-            .scalar_subquery()
-        )
+        newest = RelabelRow.newest(RelabelRow.value, cls)
         corrected = exists().where(RelabelRow.feedback_id == cls.id).correlate(cls)
         return case((corrected, newest), else_=cls.value)
 
@@ -280,6 +276,12 @@ class RelabelRow(Base):
     at: Mapped[datetime]
 
     trainer: Mapped[TrainerRow] = relationship(lazy="joined", innerjoin=True)
+
+    @classmethod
+    def newest(cls, column: InstrumentedAttribute[T], click: type[FeedbackRow]) -> ScalarSelect[T]:
+        """In a query: a column of the newest correction of each click; null where there is none."""
+        query = select(column).where(cls.feedback_id == click.id).order_by(cls.id.desc()).limit(1)
+        return query.correlate(click).scalar_subquery()
 
 
 class ExecutionRow(Base):

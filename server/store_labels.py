@@ -105,14 +105,7 @@ def _must_be_correctable(row: FeedbackRow, proposal: ProposalRow, by: str, *, an
 def _labels(
     session: Session, *where: ColumnElement[bool], limit: int | None = None, newest: bool = False
 ) -> list[StoredLabel]:
-    corrector = (
-        select(RelabelRow.trainer_id)
-        .where(RelabelRow.feedback_id == FeedbackRow.id)
-        .order_by(RelabelRow.id.desc())
-        .limit(1)
-        .correlate(FeedbackRow)
-        .scalar_subquery()
-    )
+    corrector = RelabelRow.newest(RelabelRow.trainer_id, FeedbackRow)
     value, trainer_id = FeedbackRow.label, func.coalesce(corrector, FeedbackRow.trainer_id)
     query = (
         select(FeedbackRow.id, ObservationRow.state, ProposalRow.skill, ProposalRow.parameters, value, trainer_id)

@@ -26,20 +26,20 @@ function useLoaded({ url }: View): [boolean, () => void] {
   return [loaded === url, () => setLoaded(url)];
 }
 
+/** The camera's picture alone; what is drawn on it waits until it has come. */
+function Still({ view, onLoad }: { view: View; onLoad: () => void }) {
+  const { url, width, height } = view;
+  return (
+    <img src={at(url)} alt="" loading="lazy" decoding="async" width={width} height={height} onLoad={onLoad} />
+  );
+}
+
 export function Picture(props: { view: View; judged?: boolean; overlay?: boolean }) {
   const { view, judged, overlay = true } = props;
   const [loaded, setLoaded] = useLoaded(view);
   return (
     <div className="pictured" style={{ aspectRatio: `${view.width} / ${view.height}` }}>
-      <img
-        src={at(view.url)}
-        alt=""
-        loading="lazy"
-        decoding="async"
-        width={view.width}
-        height={view.height}
-        onLoad={setLoaded}
-      />
+      <Still view={view} onLoad={setLoaded} />
       {overlay && loaded && (
         <OverlayDrawing
           overlay={view.overlay}
@@ -59,15 +59,7 @@ export function Thumb({ view }: { view: View }) {
   const [loaded, setLoaded] = useLoaded(view);
   return (
     <>
-      <img
-        src={at(view.url)}
-        alt=""
-        loading="lazy"
-        decoding="async"
-        width={view.width}
-        height={view.height}
-        onLoad={setLoaded}
-      />
+      <Still view={view} onLoad={setLoaded} />
       <svg
         style={{ visibility: loaded ? undefined : "hidden" }}
         viewBox={`0 0 ${view.width} ${view.height}`}
