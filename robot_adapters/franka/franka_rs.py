@@ -100,8 +100,7 @@ class FrankaRs:
 
     def track(self, goal: Goal) -> None:
         """See `FrankaBackend`. Its own profile needs to know where to come to rest."""
-        if self._session is not None:
-            self._session.move_to([*goal.braked, *goal.quaternion])
+        self._go([*goal.braked, *goal.quaternion])
 
     def end(self) -> None:
         """See `FrankaBackend`."""
@@ -123,7 +122,7 @@ class FrankaRs:
         """See `FrankaBackend`."""
         self._start(self._robot.joint_targets, fraction=self._driving.homing_fraction, max_deviation=math.pi)
         self._joints = joints
-        self._session.move_to(joints)
+        self._go(joints)
 
     def joints_arrived(self) -> bool:
         """See `FrankaBackend`."""
@@ -173,6 +172,12 @@ class FrankaRs:
                 ordinary("franka-")  # it takes the highest priority whether asked to or not
         except self._driver.FrankaError as error:
             raise ArmFault(f"the arm doesn't start: {error}", mode=self.state().mode) from error
+
+    def _go(self, target: Any) -> None:
+        """Move the target of the loop; where the loop has just ended by itself, the next state tells why."""
+        if self._session is not None:
+            with contextlib.suppress(self._driver.FrankaError):
+                self._session.move_to(target)
 
     def _why_ended(self, told: Mode) -> Mode:
         """The loop has ended: by a reflex, a user stop, or because nothing comes through any more."""
