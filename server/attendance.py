@@ -6,6 +6,7 @@ import asyncio
 import time
 from collections.abc import Callable
 
+from server.principal import Principal
 from server.store import Conflict
 
 ANYBODY = "nobody attends the robot"
@@ -28,14 +29,19 @@ class Attendance:
         self._told = told
         self._lapsed = lapsed
         self._clock = clock
-        self._name: str | None = None
+        self._who: Principal | None = None
         self._until = 0.0
         self._lapse: asyncio.TimerHandle | None = None
 
     @property
-    def operator(self) -> str | None:
+    def who(self) -> Principal | None:
         """Who attends now."""
-        return self._name if self._name is not None and self._clock() < self._until else None
+        return self._who if self._clock() < self._until else None
+
+    @property
+    def operator(self) -> str | None:
+        """The name of who attends now."""
+        return None if self.who is None else self.who.name
 
     @property
     def present(self) -> bool:
@@ -52,32 +58,44 @@ class Attendance:
         if holder is not None and holder != name:
             raise Conflict(f"{holder} attends the robot", remedy=f"wait until {holder} has left, or ask them to")
 
-    def take(self, name: str, seconds: float) -> None:
-        """`name` attends for so long from now.
+    def must_be(self, who: Principal) -> None:
+        """What sets the arm in motion is for who stands at it, and for nobody by their leave.
+
+        Raises:
+            Conflict: nobody attends it, or somebody else does.
+        """
+        operator = self.operator
+        if operator is None:
+            raise Conflict(ANYBODY, remedy="attend it first: stand where you see it and can reach its stop button")
+        if operator != who.name:
+            raise Conflict(f"{operator} attends the robot, and you are {who.name}", remedy=f"leave it to {operator}")
+
+    def take(self, who: Principal, seconds: float) -> None:
+        """They attend for so long from now.
 
         Raises:
             Conflict: somebody else does.
         """
-        self.must_be_free_for(name)
+        self.must_be_free_for(who.name)
         holder = self.operator
-        self._name, self._until = name, self._clock() + seconds
+        self._who, self._until = who, self._clock() + seconds
         if self._lapse is not None:
             self._lapse.cancel()
         self._lapse = asyncio.get_running_loop().call_later(seconds + 0.01, self._look)
-        if holder != name:
-            self._told(name)
+        if holder != who.name:
+            self._told(who.name)
 
     def leave(self, name: str) -> bool:
         """`name` attends no longer; False where they didn't."""
-        if self._name != name:
+        if self._who is None or self._who.name != name:
             return False
-        self._until, self._name = 0.0, None
+        self._until, self._who = 0.0, None
         self._told(None)
         return True
 
     def _look(self) -> None:
         """Tell that it is over, once."""
-        if self._name is not None and not self.present:
-            name, self._name = self._name, None
+        if self._who is not None and not self.present:
+            gone, self._who = self._who, None
             self._told(None)
-            self._lapsed(name)
+            self._lapsed(gone.name)

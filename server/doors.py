@@ -10,8 +10,8 @@ from starlette.requests import HTTPConnection
 from starlette.responses import Response
 
 from server.errors import ServiceError
+from server.hub import Hub
 from server.origin import SAFE_METHODS
-from server.presence import Presence
 from server.principal import LOCAL, Principal
 from server.rates import Rates
 from server.schemas_people import SignedIn, SignIn
@@ -75,23 +75,24 @@ class Doors:
         if self.login:
             self._rates.ask("session", str(who.session_id))
 
-    async def watch(self, presence: Presence) -> None:
-        """Close the streams of those whose access runs out, or was ended by another process; until it is cancelled.
+    async def watch(self, hub: Hub) -> None:
+        """Let out those whose access runs out, or was ended by another process; until it is cancelled.
 
-        What ends here is cut off at once by whoever ends it. This also finds a stream that was just opening.
+        What ends here is cut off at once by whoever ends it. This also finds a stream that was just opening, and a word
+        of somebody at a robot that was on its way.
         """
         while self.login:
             await asyncio.sleep(LOOK_EVERY)
-            ids = {visit.who.session_id for visit in presence.streams() if visit.who.session_id is not None}
+            here = [*(visit.who for visit in hub.presence.streams()), *hub.attending]
+            ids = {who.session_id for who in here if who.session_id is not None}
             if not ids:
                 continue
             try:
                 known = await self._people.let_in(ids)
+                # who came in meanwhile was let in a moment ago, and is looked at the next time
+                await hub.let_out(lambda who: who.session_id in ids and known.get(who.session_id) != who)  # noqa: B023
             except StoreError as error:
                 log.warning("whether those who are here still may be can't be told: %s. %s", error, error.remedy)
-                continue
-            # who came in meanwhile was let in a moment ago, and is looked at the next time
-            presence.cut_off(lambda who: who.session_id in ids and known.get(who.session_id) != who)  # noqa: B023
 
     async def sign_in(self, connection: HTTPConnection, body: SignIn, response: Response) -> SignedIn:
         """Let somebody in; the page gets its cookie, a program its token.

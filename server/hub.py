@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import logging
 from collections import defaultdict
+from collections.abc import Callable
 from datetime import UTC, datetime
 from typing import Any, Literal
 
@@ -15,6 +16,7 @@ from server.guiding import guide, under_way
 from server.lifecycle import MOVING
 from server.messages import EvaluationChanged, ExecutionEnded, ExperimentChanged, RobotTold, Snapshot
 from server.presence import Presence
+from server.principal import Principal, acting
 from server.publisher import Publisher
 from server.runner import Runner
 from server.schemas import (
@@ -26,6 +28,7 @@ from server.schemas import (
     Feedback,
     FeedbackCreate,
     Lifecycle,
+    Mode,
     Proposal,
 )
 from server.schemas_labels import RelabelCreate
@@ -152,6 +155,8 @@ class Hub:
             return await self._halt(experiment_id)
         async with self._verbs[experiment_id]:
             runner = await self._runner(experiment_id)
+            if verb in MOVING or verb == "rearm":
+                tending.must_not_move_another_s(runner, acting.get())
             if runner.evaluating and verb != "rearm":
                 raise Conflict(
                     f"can't {verb} an experiment while it is evaluated", remedy="wait for its end, or halt it"
@@ -199,19 +204,29 @@ class Hub:
             runner.evaluate(evaluation)
             return evaluation
 
-    async def attend(self, experiment_id: int, operator: str, seconds: float) -> None:
+    async def attend(self, experiment_id: int, who: Principal, seconds: float) -> None:
         """Somebody stands at the real robot of this experiment; see `server.tending`."""
-        await tending.attend(await self._runner(experiment_id), self.store, operator, seconds)
+        await tending.attend(await self._runner(experiment_id), self.store, who, seconds)
 
     async def leave(self, experiment_id: int, operator: str) -> None:
         """They have left."""
         await tending.leave(await self._runner(experiment_id), self.store, operator)
 
-    async def tend(self, experiment_id: int, what: tending.Order) -> Experiment:
+    @property
+    def attending(self) -> list[Principal]:
+        """Everybody who stands at a real robot."""
+        return tending.attending(self._runners.values())
+
+    async def let_out(self, ended: Callable[[Principal], bool]) -> None:
+        """Close what these have open, and count on none of them at a robot."""
+        self.presence.cut_off(ended)
+        await tending.let_out(self._runners.values(), self.store, ended)
+
+    async def tend(self, experiment_id: int, what: tending.Order, who: Principal) -> Experiment:
         """Do what an operator asks of the arm itself."""
         async with self._verbs[experiment_id]:
             runner = await self._runner(experiment_id)
-            await tending.tend(runner, self.store, what)
+            await tending.tend(runner, self.store, what, who)
             return runner.experiment
 
     async def guide(self, experiment_id: int, step: str, **arguments: Any) -> dict[str, Any]:
@@ -241,6 +256,8 @@ class Hub:
                 body.auto_approval, adapter=changed.adapter, simulated=simulated, settings=changed.settings
             )
         if runner := self._runners.get(experiment_id):
+            if body.mode is Mode.EXECUTE_APPROVED:
+                tending.must_not_move_another_s(runner, acting.get())
             async with runner.turn():
                 experiment, concluded = await self.store.update_and_conclude(experiment_id, body)
                 runner.conclude(concluded)

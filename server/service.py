@@ -94,7 +94,7 @@ async def opened(settings: Settings, listener: Publisher | None = None) -> Async
             await hub.start()
             critics = Critics(store, settings, hub)
             doors = Doors(settings, store)
-            watching = asyncio.create_task(doors.watch(hub.presence), name="doors")
+            watching = asyncio.create_task(doors.watch(hub), name="doors")
             try:
                 yield Service(settings, store, rooms, hub, doors, critics)
             finally:

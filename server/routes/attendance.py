@@ -6,11 +6,14 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query
 
+from server.principal import Principal
 from server.routes.dependencies import Id, Running, Who, errors
 from server.schemas import Experiment
 from server.schemas_attendance import Attending, OperatorName
 
 EXAMPLES: dict[str, Any] = {"for five seconds": {"value": {"operator": "anna", "seconds": 5}}}
+
+Ordering = Annotated[OperatorName | None, Query(description="who orders it, where nobody signs in")]
 
 router = APIRouter(prefix="/experiments/{experiment_id}", tags=["experiments"])
 
@@ -20,9 +23,9 @@ async def attend(
     service: Running, who: Who, experiment_id: Id, body: Annotated[Attending, Body(openapi_examples=EXAMPLES)]
 ) -> Attending:
     """Say that you stand at the robot and watch it. Say it again before the time is over: else whatever moves stops."""
-    operator = who.called(body.operator).name
+    operator = who.called(body.operator)
     await service.hub.attend(experiment_id, operator, body.seconds)
-    return body.model_copy(update={"operator": operator})
+    return body.model_copy(update={"operator": operator.name})
 
 
 @router.delete("/attendance", status_code=204, responses=errors(404, 422))
@@ -32,12 +35,16 @@ async def leave(service: Running, who: Who, experiment_id: Id, operator: Annotat
 
 
 @router.post("/recover", responses=errors(404, 409, 422))
-async def recover(service: Running, experiment_id: Id) -> Experiment:
-    """Clear a collision reflex, once an operator has looked. After a user stop only releasing the button helps."""
-    return await service.hub.tend(experiment_id, "recover")
+async def recover(service: Running, who: Who, experiment_id: Id, operator: Ordering = None) -> Experiment:
+    """Clear a collision reflex, once who attends it has looked. After a user stop only releasing the button helps."""
+    return await service.hub.tend(experiment_id, "recover", _ordering(who, operator))
 
 
 @router.post("/home", responses=errors(404, 409, 422))
-async def home(service: Running, experiment_id: Id) -> Experiment:
-    """Bring the arm slowly to where it is out of the way. It moves at once, by the operator's word and no proposal."""
-    return await service.hub.tend(experiment_id, "home")
+async def home(service: Running, who: Who, experiment_id: Id, operator: Ordering = None) -> Experiment:
+    """Bring the arm slowly to where it is out of the way: at once, by no proposal, for who attends it only."""
+    return await service.hub.tend(experiment_id, "home", _ordering(who, operator))
+
+
+def _ordering(who: Principal, operator: str | None) -> Principal:
+    return who if operator is None else who.called(operator)

@@ -63,7 +63,7 @@ async def sign_out(service: Running, who: Who) -> Response:
     response = Response(status_code=204)
     if who.session_id is not None:
         await service.store.people.sign_out(who.session_id)
-        service.hub.presence.cut_off(lambda other: other.session_id == who.session_id)
+        await service.hub.let_out(lambda other: other.session_id == who.session_id)
         service.doors.forget(response)
     return response
 
@@ -122,9 +122,9 @@ async def list_people(service: Running, cursor: Cursor = None, limit: Limit = 50
 async def update_person(
     service: Running, person_id: Id, body: Annotated[PersonUpdate, Body(openapi_examples=OTHER_ROLE)]
 ) -> Person:
-    """Give somebody another role; their open pages begin anew with it."""
+    """Give somebody another role; their open pages begin anew with it, and what they attend is attended no longer."""
     changed = await service.store.people.change_role(person_id, body.role)
-    service.hub.presence.cut_off(lambda who: who.person_id == person_id)
+    await service.hub.let_out(lambda who: who.person_id == person_id)
     return changed
 
 
@@ -133,7 +133,7 @@ async def revoke_person(service: Running, who: Who, person_id: Id) -> Person:
     """Let somebody out: every session and token of theirs ends, and what they have open is closed at once."""
     _must_reach(who, (await service.store.people.person(person_id)).role)
     gone = await service.store.people.revoke(person_id)
-    service.hub.presence.cut_off(lambda other: other.person_id == person_id)
+    await service.hub.let_out(lambda other: other.person_id == person_id)
     return gone
 
 

@@ -424,7 +424,7 @@ export interface paths {
         put?: never;
         /**
          * Recover
-         * @description Clear a collision reflex, once an operator has looked. After a user stop only releasing the button helps.
+         * @description Clear a collision reflex, once who attends it has looked. After a user stop only releasing the button helps.
          */
         post: operations["recover"];
         delete?: never;
@@ -444,7 +444,7 @@ export interface paths {
         put?: never;
         /**
          * Home
-         * @description Bring the arm slowly to where it is out of the way. It moves at once, by the operator's word and no proposal.
+         * @description Bring the arm slowly to where it is out of the way: at once, by no proposal, for who attends it only.
          */
         post: operations["home"];
         delete?: never;
@@ -1016,7 +1016,7 @@ export interface paths {
         head?: never;
         /**
          * Update Person
-         * @description Give somebody another role; their open pages begin anew with it.
+         * @description Give somebody another role; their open pages begin anew with it, and what they attend is attended no longer.
          */
         patch: operations["update_person"];
         trace?: never;
@@ -8008,7 +8008,10 @@ export interface operations {
     };
     recover: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description who orders it, where nobody signs in */
+                operator?: string | null;
+            };
             header?: never;
             path: {
                 experiment_id: number;
@@ -8102,7 +8105,10 @@ export interface operations {
     };
     home: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description who orders it, where nobody signs in */
+                operator?: string | null;
+            };
             header?: never;
             path: {
                 experiment_id: number;

@@ -210,8 +210,8 @@ export const attend = (id: number, operator: string, seconds: number) =>
 export const leave = (id: number, operator: string) =>
   request<null>("DELETE", `/experiments/${id}/attendance?operator=${encodeURIComponent(operator)}`);
 
-export const tend = (id: number, what: "home" | "recover") =>
-  request<Experiment>("POST", `/experiments/${id}/${what}`);
+export const tend = (id: number, what: "home" | "recover", operator: string) =>
+  request<Experiment>("POST", `/experiments/${id}/${what}?operator=${encodeURIComponent(operator)}`);
 
 /** One calibration of the robot's cameras, step by step. */
 const guiding = (id: number) => `/experiments/${id}/camera-calibration`;

@@ -151,7 +151,7 @@ export class Session {
   }
 
   async tend(what: "home" | "recover"): Promise<void> {
-    await this.guard(http.tend(this.id, what));
+    await this.guard(http.tend(this.id, what, ME));
   }
 
   async setMode(mode: "propose_only" | "execute_approved"): Promise<void> {

@@ -72,7 +72,7 @@ def test_stacking_from_the_first_look_to_the_last_pause(
             e for e in service.get(f"{session.path}/events?limit=50")["items"] if e["kind"] == "operator_needed"
         ]
         assert "success" in asked["payload"]["why"][0]
-        assert service.http.post(f"/api/v1{session.path}/home", timeout=PATIENCE).is_success
+        assert service.http.post(f"/api/v1{session.path}/home?operator=anna", timeout=PATIENCE).is_success
         assert abs(lab.truth()["tip"][0] - 0.307) < 0.01
     service.post(f"{session.path}/finish")
 
@@ -130,9 +130,9 @@ def test_a_driver_that_is_frozen_for_300_ms_is_stopped_by_the_robot(
         broken = session.ended(1)
         assert broken["outcome"] in {"failed", "stopped"}
         wait_for(lambda: service.get(session.path)["halted"], "the stop to be latched", PATIENCE)
-        assert service.http.post(f"/api/v1{session.path}/home").status_code == 409
+        assert service.http.post(f"/api/v1{session.path}/home?operator=anna").status_code == 409
         service.post(f"{session.path}/rearm")
-        service.post(f"{session.path}/recover")
+        service.post(f"{session.path}/recover?operator=anna")
         lab.tell(place=APART)
         service.post(f"{session.path}/resume")
         session.approve(session.proposal())

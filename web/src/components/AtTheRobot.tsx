@@ -67,7 +67,7 @@ export function AtTheRobot({ session, experiment }: { session: Session; experime
           type="button"
           className="button"
           data-testid="home"
-          disabled={!still || !operator || experiment.halted}
+          disabled={!still || operator !== ME || experiment.halted}
           onClick={() => void session.tend("home")}
         >
           {t("operator.home")}
@@ -76,7 +76,7 @@ export function AtTheRobot({ session, experiment }: { session: Session; experime
           type="button"
           className="button"
           data-testid="recover"
-          disabled={!still || !operator}
+          disabled={!still || operator !== ME}
           onClick={() => void session.tend("recover")}
         >
           {t("operator.recover")}
