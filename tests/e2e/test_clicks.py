@@ -96,7 +96,7 @@ def test_nothing_moves_while_the_mode_is_propose_only(opener: Opener) -> None:
     # Switched while it runs, and only after a question.
     trainer.test_id("mode-execute_approved").click()
     trainer.test_id("mode-confirm").click()
-    expect(trainer.test_id("mode-execute_approved")).to_be_checked()
+    expect(trainer.test_id("mode-execute_approved")).to_have_attribute("aria-pressed", "true")
     proposal = trainer.drawn(proposal)
     trainer.press(1)
     trainer.drawn(proposal)

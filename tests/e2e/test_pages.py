@@ -114,6 +114,15 @@ def test_everything_works_by_keyboard_alone(page: Page, service: LiveService) ->
     expect(views).to_have_attribute("data-ready", "true")
     page.keyboard.press("Space")
     expect(views).not_to_have_attribute("data-proposal-id", str(second))
+    for mode in ("propose_only", "execute_approved"):
+        tab_to(page, f"[data-testid=mode-{mode}]")
+        page.keyboard.press("Enter")
+        if mode == "execute_approved":
+            tab_to(page, "[data-testid=mode-confirm]")
+            page.keyboard.press("Enter")
+        expect(page.get_by_test_id(f"mode-{mode}")).to_have_attribute("aria-pressed", "true")
+        stored = service.get(f"/experiments/{experiment}")
+        assert (stored["mode"], stored["counters"]["feedback"]) == (mode, 2)
     tab_to(page, "[data-testid=pause]")
     page.keyboard.press("Enter")
     expect(page.get_by_test_id("lifecycle")).to_have_text("paused")

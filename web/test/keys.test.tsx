@@ -2,6 +2,7 @@ import { act } from "react";
 import { describe, expect, it, vi } from "vitest";
 import { Confirm } from "../src/components/Dialog";
 import { JudgeBar, type JudgeBarProps } from "../src/components/JudgeBar";
+import { ModeSwitch } from "../src/components/ModeSwitch";
 import { StopButton } from "../src/components/StopButton";
 import type { Value } from "../src/wire";
 import { byTestId, press, show } from "./render";
@@ -70,6 +71,38 @@ describe("judging by keys", () => {
     );
     await press("1");
     expect(judged).toEqual([]);
+  });
+
+  it.each(["radio", "range", "number"])("leaves a control of its own kind its keys: %s", async (type) => {
+    const { judged, props } = bar();
+    await show(
+      <>
+        <JudgeBar {...props} />
+        <input type={type} data-testid="field" />
+      </>,
+    );
+    for (const key of ["ArrowRight", "ArrowUp", "1"]) await press(key, {}, byTestId("field"));
+    expect(judged).toEqual([]);
+  });
+
+  it("judges also while the mode switch has the focus, which needs no arrows itself", async () => {
+    const { judged, props } = bar();
+    const onChange = vi.fn();
+    await show(
+      <>
+        <JudgeBar {...props} />
+        <ModeSwitch mode="execute_approved" onChange={onChange} />
+      </>,
+    );
+    expect(document.querySelector("input")).toBeNull();
+    expect(byTestId("mode-execute_approved").getAttribute("aria-pressed")).toBe("true");
+    await press("ArrowLeft", {}, byTestId("mode-execute_approved"));
+    expect(judged).toEqual([-1]);
+    expect(onChange).not.toHaveBeenCalled();
+    await act(async () => byTestId("mode-propose_only").click());
+    await act(async () => byTestId("mode-execute_approved").click()); // pressed already: nothing to ask
+    expect(onChange.mock.calls).toEqual([["propose_only"]]);
+    expect(judged).toEqual([-1]);
   });
 
   it("leaves the browser's own shortcuts alone", async () => {

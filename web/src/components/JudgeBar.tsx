@@ -39,10 +39,11 @@ export interface JudgeBarProps {
   onUndo: () => void;
 }
 
+/** Whether digits, letters or arrows are the control's own: text, a choice among several, a slider. */
 export function typing(target: EventTarget | null): boolean {
   return (
     target instanceof HTMLElement &&
-    target.matches("input:not([type=radio], [type=checkbox]), select, textarea, [contenteditable]")
+    target.matches("input:not([type=checkbox]), select, textarea, [contenteditable]")
   );
 }
 

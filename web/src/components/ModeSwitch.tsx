@@ -1,3 +1,4 @@
+// Whether what a trainer approves moves the robot. Two buttons, not radios: the arrow keys judge on this page.
 import { t } from "../i18n";
 import type { Mode } from "../wire";
 
@@ -8,16 +9,15 @@ export function ModeSwitch({ mode, onChange }: { mode: Mode; onChange: (mode: Mo
     <section className="card" aria-label={t("mode.label")}>
       <fieldset className="segments" aria-label={t("mode.what")}>
         {MODES.map((each) => (
-          <label key={each}>
-            <input
-              type="radio"
-              name="mode"
-              checked={mode === each}
-              onChange={() => onChange(each)}
-              data-testid={`mode-${each}`}
-            />
+          <button
+            key={each}
+            type="button"
+            aria-pressed={mode === each}
+            data-testid={`mode-${each}`}
+            onClick={() => mode !== each && onChange(each)}
+          >
             {t(`mode.${each}`)}
-          </label>
+          </button>
         ))}
       </fieldset>
       <p className="hint">{t(`mode.${mode}_what`)}</p>
