@@ -120,6 +120,11 @@ describe("judging by keys", () => {
     await press("z", { ctrlKey: true });
     await press("z");
     expect(undone()).toBe(2);
+    for (const held of ["ctrlKey", "metaKey", "altKey"]) {
+      await press("u", { [held]: true }); // shows the page's source, among others
+      await press("Z", { [held]: true, shiftKey: true }); // brings back what was undone
+    }
+    expect(undone()).toBe(2);
     await show(<JudgeBar {...props} canUndo={false} />);
     await press("u");
     expect(undone()).toBe(2);

@@ -50,14 +50,14 @@ export function typing(target: EventTarget | null): boolean {
 function useJudgeKeys(props: JudgeBarProps): void {
   const press = useEffectEvent((event: KeyboardEvent) => {
     if (typing(event.target) || dialogOpen()) return;
-    const undo =
-      event.key.toLowerCase() === "u" ||
-      (event.key.toLowerCase() === "z" && (event.ctrlKey || event.metaKey));
-    if (undo && props.canUndo && !event.repeat) {
+    const command = event.ctrlKey || event.metaKey;
+    const key = event.key.toLowerCase();
+    const undo = command ? key === "z" && !event.shiftKey : key === "u";
+    if (undo && !event.altKey && props.canUndo && !event.repeat) {
       event.preventDefault();
       props.onUndo();
     }
-    if (event.ctrlKey || event.metaKey || event.altKey || event.shiftKey) return;
+    if (command || event.altKey || event.shiftKey) return;
     const choice = CHOICES.find(({ key, number }) => event.key === key || event.key === number);
     if (!choice) return;
     event.preventDefault();
