@@ -41,7 +41,7 @@ def test_an_offline_click_is_kept_and_sent_once(opener: Opener) -> None:
     assert clicks(trainer) == [(proposal, -1, "stored")]
 
 
-def test_a_kept_click_survives_a_reload_of_the_page(opener: Opener) -> None:
+def test_a_kept_click_waits_for_who_clicked_whoever_sits_there_meanwhile(opener: Opener) -> None:
     trainer = opener(**BAD_ONLY)
     proposal = trainer.drawn()
     trainer.service.kill()
@@ -49,11 +49,16 @@ def test_a_kept_click_survives_a_reload_of_the_page(opener: Opener) -> None:
     trainer.press(0)
     expect(trainer.connection).to_contain_text(ONE_KEPT)
     trainer.service.start()
-    trainer.page.reload()
-    trainer.connected()
+    for name in ("bob", "local"):
+        trainer.page.evaluate("name => localStorage.setItem('seed.trainer', name)", name)
+        trainer.page.reload()
+        trainer.connected()
+        expect(trainer.connection).not_to_contain_text(ONE_KEPT)
     # The restart had closed the proposal: the click is stored, and the page says that it came late.
     expect(trainer.notices).to_contain_text("came too late")
     assert clicks(trainer) == [(proposal, 0, "late")]
+    (stored,) = trainer.service.get(f"/proposals/{proposal}/feedback")["items"]
+    assert stored["trainer"] == "local"
 
 
 def test_a_click_that_came_too_late_says_so_and_decides_nothing(opener: Opener, service: LiveService) -> None:

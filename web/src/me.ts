@@ -22,19 +22,38 @@ export let LOGIN = false;
 /** Whether the one who sits here may do what this role may. */
 export const may = (role: Role): boolean => ROLE !== null && ROLES.indexOf(ROLE) >= ROLES.indexOf(role);
 
+/** Whether the service has said who sits here. */
+let told = false;
+
+async function ask(): Promise<Me> {
+  const response = await fetch(at("/api/v1/me"), { signal: AbortSignal.timeout(PATIENCE_MS) });
+  if (!response.ok) throw new Error(`GET /api/v1/me: ${response.status}`);
+  return (await response.json()) as Me;
+}
+
 /** Ask the service who sits here, before anything is drawn. */
 export async function findOut(): Promise<void> {
   try {
-    const response = await fetch(at("/api/v1/me"), { signal: AbortSignal.timeout(PATIENCE_MS) });
-    if (!response.ok) return; // the page says that the service doesn't answer when it asks for more
-    const me = (await response.json()) as Me;
+    const me = await ask();
+    told = true;
     LOGIN = me.login;
     if (!LOGIN) return;
     ROLE = me.role ?? null;
     ME = me.name ?? NOBODY_SAID;
   } catch {
-    // As above.
+    // The page says that the service doesn't answer when it asks for more.
   }
+}
+
+/** Whether who sits here is still who this page takes them for: they may have signed in or out in another tab. Where
+ * they aren't, the page begins anew. Rejects where the service doesn't say. */
+export async function stillMe(): Promise<boolean> {
+  if (told && !LOGIN) return true; // only this page knows, and it begins anew with another name
+  const me = await ask();
+  const same = me.login ? LOGIN && (me.name ?? NOBODY_SAID) === ME && (me.role ?? null) === ROLE : !LOGIN;
+  if (same) told = true;
+  else location.reload();
+  return same;
 }
 
 /** Whoever sat here is not let in any more: the page begins anew and asks who is there. */

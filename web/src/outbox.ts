@@ -1,9 +1,12 @@
 // Clicks that the service hasn't acknowledged yet, kept across reloads. The click's own id makes sending it again
-// harmless: the service stores it once.
+// harmless: the service stores it once. Whoever sits here next neither sees nor sends those of the one before, who finds
+// them again when they come back.
 import type { Looked, Value } from "./wire";
 
 export interface Click {
   click_id: string;
+  /** Whose verdict it is, for as long as it is kept. */
+  trainer: string;
   proposal_id: number;
   /** Whether the predicted feedback was shown beside it. */
   estimate_shown?: boolean;
@@ -20,24 +23,29 @@ export class Outbox {
   /** This tab's own clicks: they survive a storage that is full or forbidden. */
   private own: Click[] = [];
 
+  /** `trainer`: who sits here. */
   constructor(
     experimentId: number,
+    private readonly trainer: string,
     private readonly storage: Storage,
   ) {
     this.key = `seed.outbox.${experimentId}`;
   }
 
+  /** Those of whoever sits here. */
   all(): Click[] {
-    const stored = this.stored();
+    const stored = this.stored().filter((click): click is Click => click.trainer === this.trainer);
     return [
       ...stored,
       ...this.own.filter((click) => !stored.some((other) => other.click_id === click.click_id)),
     ];
   }
 
-  add(click: Click): void {
+  add(given: Omit<Click, "trainer">): Click {
+    const click = { ...given, trainer: this.trainer };
     this.own.push(click);
     this.write([...this.stored(), click]);
+    return click;
   }
 
   remove(clickId: string): void {
@@ -47,16 +55,24 @@ export class Outbox {
     if (left.length !== stored.length) this.write(left);
   }
 
-  private stored(): Click[] {
+  /** Pages of before kept clicks without a name. They become, once and for good, those of the first trainer who opens
+   * the experiment after the upgrade: nearly always who clicked, and the page of before would have sent them so too. */
+  adopt(): void {
+    const stored = this.stored();
+    const named = stored.map((click) => ({ trainer: this.trainer, ...click }));
+    if (stored.some((click) => click.trainer === undefined)) this.write(named);
+  }
+
+  private stored(): Kept[] {
     try {
       const parsed: unknown = JSON.parse(this.storage.getItem(this.key) ?? "[]");
-      return Array.isArray(parsed) ? parsed.filter(isClick) : [];
+      return Array.isArray(parsed) ? parsed.filter(isKept) : [];
     } catch {
       return [];
     }
   }
 
-  private write(clicks: Click[]): void {
+  private write(clicks: Kept[]): void {
     try {
       if (clicks.length) this.storage.setItem(this.key, JSON.stringify(clicks));
       else this.storage.removeItem(this.key);
@@ -66,10 +82,13 @@ export class Outbox {
   }
 }
 
-function isClick(value: unknown): value is Click {
-  const click = value as Click | null;
+type Kept = Omit<Click, "trainer"> & { trainer?: string };
+
+function isKept(value: unknown): value is Kept {
+  const click = value as Kept | null;
   return (
     typeof click?.click_id === "string" &&
+    ["string", "undefined"].includes(typeof click.trainer) &&
     Number.isInteger(click.proposal_id) &&
     [-1, 0, 1, "cant_tell"].includes(click.value)
   );

@@ -6,7 +6,7 @@ import { KEPT } from "./history";
 import * as http from "./http";
 import { t } from "./i18n";
 import { newId } from "./ids";
-import { ME } from "./me";
+import { ME, may, stillMe } from "./me";
 import { type Click, comesAgain, Outbox } from "./outbox";
 import { Recording } from "./recording";
 import { type Action, initial, reduce, type TrainerState } from "./state";
@@ -48,7 +48,7 @@ export class Session {
     readonly id: number,
     private readonly dispatch: Dispatch<Action>,
   ) {
-    this.outbox = new Outbox(id, window.localStorage);
+    this.outbox = new Outbox(id, ME, window.localStorage);
     this.stream = new Stream(streamUrl(id), ME, {
       onEvent: this.onEvent,
       onFrame: (frame) => {
@@ -89,14 +89,13 @@ export class Session {
   judge(proposal: Proposal, value: Value, estimateShown: boolean): void {
     if (this.outbox.all().some((click) => click.proposal_id === proposal.id)) return;
     const { observation_id, policy_version } = proposal;
-    const click: Click = {
+    const click = this.outbox.add({
       click_id: newId(),
       proposal_id: proposal.id,
       value,
       estimate_shown: estimateShown,
       looked: { observation_id, policy_version },
-    };
-    this.outbox.add(click);
+    });
     this.send(click);
     this.leasedAt = performance.now();
     this.dispatch({ kind: "pending", clicks: this.outbox.all() });
@@ -219,11 +218,26 @@ export class Session {
   }
 
   private send(click: Click): void {
-    this.stream.send({ type: "feedback", trainer: ME, ...click });
+    this.stream.send({ type: "feedback", ...click });
   }
 
+  /** The service takes a click as that of whoever is signed in: so only once it is certain that they still sit here. */
   private sendKept(): void {
-    for (const click of this.outbox.all()) this.send(click);
+    stillMe().then(
+      (same) => {
+        if (!same) return;
+        if (may("trainer")) this.outbox.adopt();
+        const clicks = this.outbox.all();
+        this.dispatch({ kind: "pending", clicks });
+        for (const click of clicks) this.send(click);
+      },
+      () => this.sendLater(),
+    );
+  }
+
+  private sendLater(): void {
+    clearTimeout(this.resend);
+    this.resend = setTimeout(() => this.sendKept(), RESEND_MS);
   }
 
   private onConnection = (connection: Connection): void => {
@@ -279,8 +293,7 @@ export class Session {
       this.outbox.remove(requestId);
       return;
     }
-    clearTimeout(this.resend);
-    this.resend = setTimeout(() => this.sendKept(), RESEND_MS);
+    this.sendLater();
   }
 }
 

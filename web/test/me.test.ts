@@ -41,4 +41,28 @@ describe("who sits here", () => {
     await me.findOut();
     expect(me.ME).toBe("ann");
   });
+
+  it("begins anew once somebody else has signed in, in another tab, and also once it hears of a login", async () => {
+    const reload = vi.spyOn(location, "reload").mockImplementation(() => undefined);
+    answering({ login: true, name: "ann", role: "trainer" });
+    const me = await import("../src/me");
+    await me.findOut();
+    expect(await me.stillMe()).toBe(true);
+    vi.stubGlobal(
+      "fetch",
+      vi.fn(async () => Promise.reject(new TypeError())),
+    );
+    await expect(me.stillMe()).rejects.toThrow();
+    expect(reload).not.toHaveBeenCalled();
+    answering({ login: true, name: "bob", role: "trainer" });
+    expect(await me.stillMe()).toBe(false);
+    expect(reload).toHaveBeenCalledOnce();
+
+    vi.resetModules();
+    const unanswered = await import("../src/me");
+    expect(await unanswered.stillMe()).toBe(false);
+    expect(reload).toHaveBeenCalledTimes(2);
+    answering({ login: false, name: "local", role: "owner" });
+    expect(await unanswered.stillMe()).toBe(true);
+  });
 });

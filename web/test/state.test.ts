@@ -5,7 +5,7 @@ import { initial, reduce, type TrainerState } from "../src/state";
 import type { StreamEvent } from "../src/wire";
 import { execution, experiment, feedback, proposal, snapshot } from "./messages";
 
-const click = { click_id: "click-1", proposal_id: 1, value: 1 as const };
+const click = { click_id: "click-1", trainer: "local", proposal_id: 1, value: 1 as const };
 
 function having(...events: StreamEvent[]): TrainerState {
   return next(initial, ...events);

@@ -130,7 +130,7 @@ describe("a majority", () => {
   it("is still open after one's own vote, which can be taken back", () => {
     const sent = reduce(asked, {
       kind: "pending",
-      clicks: [{ click_id: "click-5", proposal_id: 5, value: 1 }],
+      clicks: [{ click_id: "click-5", trainer: "local", proposal_id: 5, value: 1 }],
     });
     const voted = next(
       sent,
