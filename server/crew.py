@@ -78,9 +78,8 @@ class Crew:
         self._posts = {post.name: post for post in (*(robot.post for robot in self.robots), self.learner)}
         self.recollection = Recollection(experiment, store, settings.learner_deadline)
         self._together: list[StoredLabel] | None = None
-        self._missed: list[StoredLabel] = []
-        self._forgotten: list[int] = []
-        self._corrected: list[StoredLabel] = []
+        self._missed: list[tuple[str, dict[str, Any]]] = []
+        """What the learner is told once it is there, in the order in which it came: a newer correction comes later."""
         self._told: set[asyncio.Task[None]] = set()
         self.metrics: dict[str, float] = {}
         """What the learner's newest gradient step reported."""
@@ -177,7 +176,7 @@ class Crew:
         if self._together is not None:
             self._together += labels
         elif labels:
-            self._tell_learner("add", self._missed, labels, labels=[wire(label) for label in labels])
+            self._tell_learner("add", labels=[wire(label) for label in labels])
 
     @contextmanager
     def together(self) -> Iterator[None]:
@@ -194,7 +193,7 @@ class Crew:
         self.recollection.forget(feedback_id)
         if self._together is not None:
             self._together = [label for label in self._together if label.feedback_id != feedback_id]
-        self._tell_learner("forget", self._forgotten, [feedback_id], feedback_id=feedback_id)
+        self._tell_learner("forget", feedback_id=feedback_id)
 
     def relabel(self, feedback_id: int, label: StoredLabel | None) -> None:
         """Have the learner hold this label in the place of the one it has of this feedback; None: none at all."""
@@ -204,7 +203,7 @@ class Crew:
         if self._together is not None and any(held.feedback_id == feedback_id for held in self._together):
             self._together = [label if held.feedback_id == feedback_id else held for held in self._together]
             return
-        self._tell_learner("relabel", self._corrected, [label], label=wire(label))
+        self._tell_learner("relabel", label=wire(label))
 
     async def propose(self, state: tuple[float, ...], *, deterministic: bool = False) -> Idea:
         """Suggest a call for this state."""
@@ -248,8 +247,6 @@ class Crew:
     async def _catch_up(self, learner: Worker) -> None:
         experiment, deadline = self._experiment, self._settings.learner_deadline
         self._missed.clear()
-        self._forgotten.clear()
-        self._corrected.clear()
         configured = await learner.call(
             "configure",
             deadline=deadline,
@@ -260,15 +257,10 @@ class Crew:
         restored = await self.recollection.restore(learner, newest_first=newest_first)
         self.policy_version, self._owed = restored["policy_version"], restored["owed_updates"]
         # what came while this went on; the learner knows an id that it has seen
-        while self._missed or self._forgotten or self._corrected:
+        while self._missed:
             missed, self._missed = self._missed, []
-            forgotten, self._forgotten = self._forgotten, []
-            corrected, self._corrected = self._corrected, []
-            await learner.call("add", deadline=deadline, labels=[wire(label) for label in missed])
-            for feedback_id in forgotten:
-                await learner.call("forget", deadline=deadline, feedback_id=feedback_id)
-            for label in corrected:
-                await learner.call("relabel", deadline=deadline, label=wire(label))
+            for command, arguments in missed:
+                await learner.call(command, deadline=deadline, **arguments)
 
     async def _load_newest(self, learner: Worker) -> None:
         """Load the newest checkpoint; without a sound one the labels alone rebuild the learner."""
@@ -283,9 +275,9 @@ class Crew:
             payload = {"checkpoint": newest.id, "detail": str(error)}
             await self._store.add_event(self._experiment.id, "checkpoint_unusable", payload)
 
-    def _tell_learner(self, command: str, missed: list[Any], what: Sequence[Any], **arguments: Any) -> None:
+    def _tell_learner(self, command: str, **arguments: Any) -> None:
         if not self.learner.ready:
-            missed += what
+            self._missed.append((command, arguments))
             return
         deadline = min(QUICK, self._settings.learner_deadline)
         reply = self.learner.worker.call(

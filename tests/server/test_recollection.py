@@ -117,6 +117,38 @@ async def test_the_service_can_end_in_the_middle_of_it(tmp_path: Path, plugins: 
         assert {each.id for each in given} <= (await held_by(s, first)).keys()
 
 
+async def test_what_is_corrected_again_while_a_new_one_starts_is_held_as_it_was_corrected_last(
+    tmp_path: Path, plugins: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    reading, gate, read = asyncio.Event(), asyncio.Event(), Store.labels
+
+    async def labels(self: Store, experiment_id: int, *where: int) -> list[StoredLabel]:
+        found = await read(self, experiment_id, *where)
+        reading.set()
+        await gate.wait()
+        return found
+
+    async with stage(tmp_path) as s:
+        experiment = await s.experiment(**CANDID, lockstep=True)
+        await s.hub.act(experiment.id, "start")
+        given = [await s.judge(await s.proposal(number=number), -1) for number in (1, 2, 3)]
+        await s.proposal(number=4)
+        monkeypatch.setattr(Store, "labels", labels)
+        at = s.now
+        os.kill(s.hub.worker_pids(experiment.id)["learner"], signal.SIGKILL)
+        async with asyncio.timeout(PATIENCE):
+            await reading.wait()
+        for which, value in ((0, 1), (0, "cant_tell"), (1, "cant_tell"), (1, 1), (2, 1)):
+            body = RelabelCreate(click_id=f"correction-{which}-{value}", value=value, trainer="local")
+            await s.hub.relabel(given[which].id, body)
+        await s.hub.undo(given[2].id)
+        gate.set()
+        await s.worker("restarted", at)
+        [open_again] = [each for each in (await s.store.proposals(experiment.id)).items if each.closed_at is None]
+        now_held = await held_by(s, open_again)
+        assert {number: value for number, value in now_held.items() if number <= given[-1].id} == {given[1].id: 1.0}
+
+
 async def test_a_learner_that_owes_many_steps_is_not_taken_for_hung(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
