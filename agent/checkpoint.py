@@ -68,7 +68,8 @@ def read(path: Path, fingerprint: Mapping[str, Any]) -> Checkpoint:
     """Read a checkpoint made for `fingerprint`.
 
     Raises:
-        CheckpointError: missing, damaged, of another version, or made for something else; the message says which.
+        CheckpointError: missing, damaged, of another version, made for something else, or holding numbers that are not
+            finite; the message says which.
     """
     try:
         contents = path.read_bytes()
@@ -86,6 +87,12 @@ def read(path: Path, fingerprint: Mapping[str, Any]) -> Checkpoint:
         raise CheckpointError(
             f"{path} belongs to something else ({told})",
             remedy="load it with the task, skills and network settings it was made with, or train anew",
+        )
+    lost = [name for name, array in checkpoint.arrays.items() if not np.isfinite(array).all()]
+    if lost:
+        raise CheckpointError(
+            f"{path} holds numbers that are not finite: {', '.join(lost)}",
+            remedy="use an older checkpoint, or rebuild the learner from the labels",
         )
     return checkpoint
 

@@ -130,7 +130,7 @@ class Maple:
         """One gradient step on critics, actors and temperatures; None before anything was observed.
 
         Raises:
-            AgentError: the losses are no longer finite. The networks are as before this step.
+            AgentError: losses or gradients are no longer finite. The networks are as before this step.
         """
         progress, networks, settings = self._progress, self._networks, self._settings
         if not progress.memory.size:

@@ -40,15 +40,17 @@ class Progress:
         """One gradient step.
 
         Raises:
-            AgentError: the loss is no longer finite. Nothing has changed but random states.
+            AgentError: the loss or its gradients are no longer finite. Nothing has changed but random states.
         """
-        if not torch.isfinite(loss):
+        self.optimiser.zero_grad()
+        loss.backward()  # type: ignore[no-untyped-call]
+        gradients = [p.grad for group in self.optimiser.param_groups for p in group["params"] if p.grad is not None]
+        # Adam squares them, and so does the norm
+        if not torch.isfinite(loss + nn.utils.get_total_norm(gradients)):
             raise AgentError(
                 f"training diverged at gradient step {self.version}",
                 remedy="load the last checkpoint, or start anew with a lower learning_rate",
             )
-        self.optimiser.zero_grad()
-        loss.backward()  # type: ignore[no-untyped-call]
         self.optimiser.step()
         self.version += 1
         self.schedule.stepped()

@@ -223,7 +223,7 @@ class Seed:
         """One gradient step on critic, actors and temperatures; None where there is nothing to learn from yet.
 
         Raises:
-            AgentError: the losses are no longer finite. The networks are as before this step.
+            AgentError: losses or gradients are no longer finite. The networks are as before this step.
         """
         if not self.ready():
             return None
@@ -331,18 +331,11 @@ class Seed:
                 for name in parameters
                 if counters["policy_version"]
             }
-            lost = [name for name, value in weights.items() if not torch.isfinite(value).all()]
         except (KeyError, TypeError, ValueError, RuntimeError) as error:
             raise CheckpointError(
                 f"{path} lacks or garbles {error}",
                 remedy="use an older checkpoint, or rebuild the learner from the labels",
             ) from error
-        if lost:
-            raise CheckpointError(
-                f"{path} holds weights that are not finite: {', '.join(lost)}",
-                remedy="use an older checkpoint, or rebuild the learner from the labels",
-            )
-
         with torch.no_grad():
             for name, parameter in parameters.items():
                 parameter.copy_(weights[name])

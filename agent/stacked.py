@@ -39,7 +39,8 @@ class StackedSeeds:
         up.
 
         Raises:
-            AgentError: the losses of a learner are no longer finite. Those it shares its pass with have not stepped.
+            AgentError: losses or gradients of a learner are no longer finite. Those it shares its pass with have not
+                stepped.
         """
         told: list[Mapping[str, float] | None] = [None] * len(self.learners)
         for places in self._level():

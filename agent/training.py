@@ -67,10 +67,11 @@ class Trainer:
         pause: called now and then before any weight changes: something may look at the networks meanwhile.
 
         Raises:
-            AgentError: a learner's losses are no longer finite. The networks are as before this step.
+            AgentError: a learner's losses or gradients are no longer finite. The networks are as before this step.
         """
         metrics, total = self._gradients(_lesson(drawn).to(self.arena.values.device), pause)
-        if not bool(torch.isfinite(total).all()):
+        # finite losses may have gradients that aren't, and Adam squares them: one product of the flat vector finds both
+        if not bool(torch.isfinite(total.sum() + self.arena.gradients.dot(self.arena.gradients))):
             raise AgentError(
                 f"training diverged at gradient step {int(self.arena.state['step'])}",
                 remedy="load the last checkpoint, or start anew with a lower learning_rate",

@@ -170,16 +170,33 @@ def test_a_checkpoint_of_another_preset_is_refused(made_by: str, read_by: str, t
         learner(of_task("stacking"), read_by).load(tmp_path / "a.ckpt")
 
 
-def test_weights_that_are_not_finite_are_refused(tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", ["network.critics.weights.0", "adam.exp_avg_sq.critics.weights.0"])
+def test_a_checkpoint_whose_numbers_are_not_finite_is_refused(name: str, tmp_path: Path) -> None:
     pupil, path = taught(learner(of_task("stacking")), judged("stacking", 4)), tmp_path / "a.ckpt"
     pupil.save(path)
     whole = checkpoint.read(path, pupil._fingerprint())
-    poisoned = {name: array.copy() for name, array in whole.arrays.items()}
-    poisoned["network.critics.weights.0"][0, 0, 0] = np.nan
+    poisoned = {each: array.copy() for each, array in whole.arrays.items()}
+    poisoned[name].flat[0] = np.nan
     checkpoint.write(path, dataclasses.replace(whole, arrays=poisoned))
-    with pytest.raises(CheckpointError, match=r"not finite: critics\.weights\.0") as error:
+    with pytest.raises(CheckpointError, match=f"not finite: {name}") as error:
         pupil.load(path)
     assert "rebuild the learner from the labels" in error.value.remedy
+
+
+def test_losses_that_are_still_finite_save_no_gradients_that_are_not() -> None:
+    pupil, state = learner(of_task("stacking"), "paper_sim"), judged("stacking", 1)[0].state
+    pupil.add(judged("stacking", 10))
+    critics = pupil._networks.critics
+    with torch.no_grad():  # two units that cancel each other out: the prediction stays small, not so what leads to it
+        critics.weights[0][..., 0], critics.biases[0][..., 0] = 0.0, 0.01
+        critics.weights[1][..., :2] = 0.0
+        critics.weights[1][:, 0, :2] = 100.0
+        critics.weights[2][:, :2, 0] = torch.tensor([3e38, -3e38])
+    before = [p.clone() for p in pupil._networks.parameters()]
+    assert abs(pupil.propose(state).predicted_feedback) < 1
+    with pytest.raises(AgentError, match="diverged at gradient step 0"):
+        pupil.update()
+    assert all(torch.equal(a, b) for a, b in zip(before, pupil._networks.parameters(), strict=True))
 
 
 # --- very many labels

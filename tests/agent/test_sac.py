@@ -15,7 +15,9 @@ from agent import losses
 from agent.algorithm import AgentError, CheckpointError
 from agent.baseline_config import BASELINES, SacFactory
 from agent.gaussian import GaussianActorCritic
+from agent.resuming import Progress
 from agent.sac import METRICS, Sac
+from agent.td import Memory, Schedule
 from tests.agent.toys import success_on_line, train_on_line
 
 QUICK: dict[str, Any] = {
@@ -257,6 +259,21 @@ def test_divergence_is_told_and_leaves_the_networks_alone() -> None:
         learner.update()
     assert "learning_rate" in error.value.remedy
     assert learner.digest() == before
+
+
+def test_a_finite_loss_saves_no_gradient_that_is_not() -> None:
+    root = nn.ParameterDict({"x": torch.zeros(1)})  # the slope of its square root is infinite there
+    progress = Progress(
+        networks={"root": root},
+        optimiser=torch.optim.Adam(root.parameters()),
+        memory=Memory(1),
+        schedule=Schedule(1, 1, 0),
+        dice={},
+        drawing=np.random.default_rng(0),
+    )
+    with pytest.raises(AgentError, match="diverged at gradient step 0"):
+        progress.descend(root["x"].sqrt().sum())
+    assert (root["x"].item(), progress.version) == (0.0, 0)
 
 
 @pytest.mark.parametrize(
