@@ -311,6 +311,9 @@ class Tended(Protocol):
     def refresh(self) -> None:
         """Look at the robot, so that its telemetry is of now. Never raises for a robot that isn't well."""
 
+    def halt(self) -> None:
+        """Stop at once whatever drives the robot. Never raises."""
+
 
 @dataclass(frozen=True)
 class AdapterInfo:

@@ -35,6 +35,7 @@ from robot_adapters.franka.arm import CONTROL_HZ
 from robot_adapters.franka.backend import WORDS, ArmFault, Mode
 from robot_adapters.franka.dead_man import DeadMan
 from robot_adapters.franka.eyes import Calibrated, EyesFactory, Hand, Sight, must_be_known, must_be_unmoved
+from robot_adapters.franka.faults import ended_by, violations_of
 from robot_adapters.franka.holding import gripped, holds
 from robot_adapters.franka.limits import Refused
 from robot_adapters.guiding import Guide
@@ -218,7 +219,12 @@ class FrankaAdapter:
         Raises:
             Unavailable: there is no such camera, or it is gone.
         """
-        return self._eyes.frame(camera, still=False)
+        try:
+            return self._eyes.frame(camera, still=False)
+        except Unavailable as lost:
+            if camera in self.info.cameras:
+                self._refusal = str(lost)
+            raise
 
     def success(self) -> bool:
         """Whether the task is solved, as far as can be seen."""
@@ -249,6 +255,10 @@ class FrankaAdapter:
             self.arm.look()
         except ArmFault as fault:
             self.arm.lost(fault.mode)
+
+    def halt(self) -> None:
+        """Stop at once whatever drives the arm."""
+        self.arm.halt()
 
     def close(self) -> None:
         """Stop, and let go of arm and cameras."""
@@ -281,7 +291,10 @@ class FrankaAdapter:
         except (ArmFault, Refused) as fault:
             log.warning("the motion broke off: %s", fault)
             self.arm.halt()
-            return _why(fault), steps, _violations(fault)
+            return ended_by(fault), steps, violations_of(fault)
+        except BaseException:  # of the eyes, the caller's hook or a bug: nobody is going to drive this motion on
+            self.arm.halt()
+            raise
         finally:
             self._dead_man.rest()
         if end is EndReason.STOPPED:
@@ -378,19 +391,3 @@ def find_eyes(name: str) -> EyesFactory:
         known = ", ".join(sorted(points)) or "none"
         raise Unavailable(f"nothing called {name!r} sees", remedy=f"installed are: {known}")
     return cast("EyesFactory", points[name].load())
-
-
-def _why(fault: ArmFault | Refused) -> EndReason:
-    if isinstance(fault, ArmFault) and fault.mode is Mode.USER_STOPPED:
-        return EndReason.STOPPED
-    if isinstance(fault, ArmFault) and fault.mode is Mode.REFLEX:
-        return EndReason.FORCE_LIMIT
-    return EndReason.STALLED
-
-
-def _violations(fault: ArmFault | Refused) -> tuple[SafetyViolation, ...]:
-    """A reflex and a lost arm need somebody to look before anything else; a button that was pressed needs a hand."""
-    if isinstance(fault, Refused):
-        return ()
-    kind = "manual_reset" if fault.mode is Mode.USER_STOPPED else "damage"
-    return (SafetyViolation(kind, f"{fault}. {WORDS[fault.mode]}"),)

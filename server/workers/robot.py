@@ -18,7 +18,17 @@ from pathlib import Path
 from typing import Any
 
 from robot_adapters import registry
-from robot_adapters.base import Adapter, AdapterError, EndReason, Observation, SkillCall, TellsTelemetry, Tended
+from robot_adapters.base import (
+    Adapter,
+    AdapterError,
+    EndReason,
+    Observation,
+    SafetyViolation,
+    SkillCall,
+    SkillResult,
+    TellsTelemetry,
+    Tended,
+)
 from robot_adapters.guiding import CalibratesCameras, Guide, GuideLook, GuideResult
 from server.images import Images
 from server.workers.channel import FrameSender, Pipes, Refusal, StopLatch, answer, open_pipes
@@ -133,10 +143,21 @@ class Robot:
         self._executed = proposal_id  # whatever comes of it: what a stop has refused isn't run after a re-arm either
         self._must_be_armed()
         pictures = _Video(self.adapter, self._frames if video else None, execution_id)
+        begun = False
+
+        def must_stop() -> bool:
+            nonlocal begun
+            begun = True  # whoever asks is about to move
+            return self._must_stop()
+
         try:
-            result = self.adapter.execute(call, should_stop=self._must_stop, on_step=pictures.step)
-        except AdapterError:
-            raise
+            result = self.adapter.execute(call, should_stop=must_stop, on_step=pictures.step)
+            success = self.adapter.success()
+        except AdapterError as error:
+            if not begun:
+                raise
+            log.warning("proposal %d: the motion broke off: %s", proposal_id, error)
+            result, success = _broken_off(error, pictures.steps), False
         except Exception as error:
             # nobody knows where the arm is now: end the process, so that the server records an interruption
             log.exception("proposal %d: the skill broke off", proposal_id)
@@ -146,7 +167,7 @@ class Robot:
             "arrived": result.end is EndReason.ARRIVED,
             "stopped": result.end is EndReason.STOPPED,
             "low_level_steps": result.low_level_steps,
-            "task_success": self.adapter.success(),
+            "task_success": success,
             "violations": [dataclasses.asdict(v) for v in result.violations],
             "first_set_point_at": pictures.first,
             "last_set_point_at": pictures.last,
@@ -203,6 +224,9 @@ class Robot:
             return
         self._adapter.refresh()
         told = telemetry_of(self._adapter)
+        if told is not None and told["mode"] == "moving" and self._must_stop():
+            log.error("the robot is being driven although it must stand still: it is stopped")
+            self._adapter.halt()
         changed = told is not None and (self._told is None or told["mode"] != self._told["mode"])
         if changed or now - self._told_at > 1.0:
             self._told, self._told_at = told, now
@@ -254,7 +278,8 @@ class Robot:
 class _Video:
     """Pictures of a running skill: at most one after any set-point, so that stop is looked at between any two.
 
-    Without frames nobody watches, and none is rendered.
+    Without frames nobody watches, and none is rendered. A camera that gives none ends no motion: that is told, with
+    what the robot says of itself, and the others are shown.
     """
 
     def __init__(self, adapter: Adapter, frames: FrameSender | None, execution_id: int) -> None:
@@ -262,13 +287,17 @@ class _Video:
         self._frames = frames
         self._execution = execution_id
         self._due = 0.0
+        self._turn = 0
+        self._unseen: set[str] = set()
         self.sent = 0
+        self.steps = 0
         self.first: float | None = None
         self.last: float | None = None
 
     def step(self) -> None:
         """Note the set-point's time; send the next camera's picture if one is due."""
         self.last = time.monotonic()
+        self.steps += 1
         if self.first is None:
             self.first = self.last
         if self._frames is None or self.last < self._due:
@@ -277,12 +306,31 @@ class _Video:
         cameras = self._adapter.info.cameras
         if not cameras:
             return
-        frame = self._adapter.frame(cameras[self.sent % len(cameras)])
+        camera = cameras[self._turn % len(cameras)]
+        self._turn += 1
+        try:
+            frame = self._adapter.frame(camera)
+        except AdapterError as error:
+            self._miss(camera, error)
+            return
         self.sent += 1
         header = {k: getattr(frame, k) for k in ("camera", "width", "height", "taken_at")}
         if self.sent % TELEMETRY_EVERY == 1:
             header["telemetry"] = telemetry_of(self._adapter)
         self._frames.send(header | {"execution_id": self._execution}, frame.jpeg)
+
+    def _miss(self, camera: str, error: AdapterError) -> None:
+        assert self._frames is not None
+        if camera not in self._unseen:
+            self._unseen.add(camera)
+            log.warning("camera %s gives no pictures during the motion: %s", camera, error)
+            self._frames.send({"telemetry": telemetry_of(self._adapter)}, b"")
+
+
+def _broken_off(error: AdapterError, steps: int) -> SkillResult:
+    """What came of a motion that an error of the adapter ended in its middle: somebody has to look."""
+    needs = SafetyViolation("manual_reset", f"the motion broke off: {error}. {error.remedy}")
+    return SkillResult(EndReason.STALLED, steps, success=False, violations=(needs,))
 
 
 def _looked(look: GuideLook) -> dict[str, Any]:

@@ -1,43 +1,41 @@
 """Ten thousand random steps with faults around the Franka: how many motions nobody approved? The bar is none.
 
 What is real: the gate, the robot worker's own door and stop latch, the Franka adapter with its limits, its dead-man
-timer and the skills. The backend is a double without physics (`tests/simulators/still_arm.py`), which makes as many
-steps possible, and which keeps every order that would have moved a real arm. The store and the service's processes
-aren't part of it: `tests/server/test_invariants.py` breaks those.
+timer, the skills and the video of each motion. The backend and the cameras are doubles without physics
+(`tests/simulators/still_arm.py`, `still_worker.py`), which makes as many steps possible, and which keeps every order
+that would have moved a real arm. The store and the service's processes aren't part of it:
+`tests/server/test_invariants.py` breaks those.
 """
 
 from __future__ import annotations
 
 import contextlib
 import math
-import socket
-import struct
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from typing import TypeVar
 from unittest import mock
 
 import numpy as np
 
-from robot_adapters.base import AdapterError, Array, CameraCalibration, CameraFrame, SkillCall, Unavailable, check_call
-from robot_adapters.franka import FrankaSettings, adapter, arm, connecting, dead_man
+from robot_adapters.base import AdapterError, Array, SkillCall, check_call
+from robot_adapters.franka import arm, dead_man
 from robot_adapters.franka.backend import Mode
-from robot_adapters.franka.eyes import Hand, Sight
 from robot_adapters.registry import task
 from server import gate
 from server.schemas import Lifecycle, Verdict
 from server.schemas import Mode as ExperimentMode
-from server.workers.channel import FrameSender, Refusal, StopLatch
-from server.workers.robot import Robot
+from server.workers import robot as worker
+from server.workers.channel import Refusal
 from tests.benchmarks.result import Result
 from tests.simulators.still_arm import StillArm
+from tests.simulators.still_worker import HIGH, LOW, StillEyes, still_worker
 
 T = TypeVar("T")
 
 STEPS = 10_000
 TASK = task("stacking")
-LOW, HIGH = (0.28, -0.2, -0.11), (0.75, 0.2, 0.6)
 ATTENDED = 0.05
 """s without word of the operator after which a motion ends: shorter than a real one's, so that it happens often."""
 
@@ -51,7 +49,8 @@ def run() -> Result:
             day.step()
     seconds = time.monotonic() - began
     lines = [
-        f"{STEPS} steps in {seconds:.0f} s; {day.executed} approved motions ran, {day.refused} were refused at a door",
+        f"{STEPS} steps in {seconds:.0f} s; {day.executed} approved motions ran, {day.refused} were refused at a door, "
+        f"{day.homes} went home",
         "steps: " + ", ".join(f"{count} {name}" for name, count in day.kinds.most_common()),
         "faults during motions: " + ", ".join(f"{count} {name}" for name, count in day.faults.most_common()),
         "they ended: " + ", ".join(f"{count} {name}" for name, count in day.ends.most_common()),
@@ -61,72 +60,35 @@ def run() -> Result:
     return Result("fault_steps", unapproved, "unapproved orders", bar=0, ok=unapproved == 0, lines=tuple(lines))
 
 
-class Seeing:
-    """A double for cameras: two blocks that lie where they were put, or one that is lost."""
-
-    cameras: tuple[str, ...] = ()
-    image_size = (640, 480)
-
-    def __init__(self) -> None:
-        self.lost = False
-
-    def calibrations(self) -> Mapping[str, CameraCalibration]:
-        return {}
-
-    def refusal(self) -> str | None:
-        return None
-
-    def look(self, hand: Hand) -> Sight:
-        at = {"block_a": np.array([0.50, 0.08, -0.092]), "block_b": np.array([0.60, -0.06, -0.087])}
-        return Sight(at, dict.fromkeys(at, time.time()), missing={"block_a": "hidden for 3 s"} if self.lost else {})
-
-    def frame(self, camera: str, *, still: bool) -> CameraFrame:
-        raise Unavailable("no pictures", remedy="none")
-
-    def close(self) -> None:
-        pass
-
-
 class Day:
     """Whatever may happen to one arm. `wrong` tells every order that nobody had approved."""
 
     def __init__(self, chance: np.random.Generator) -> None:
         self.chance = chance
-        self.arm, self.eyes = StillArm(), Seeing()
+        self.arm, self.eyes = StillArm(), StillEyes(("left", "right"))
         self.kinds: Counter[str] = Counter()
         self.faults: Counter[str] = Counter()
         self.ends: Counter[str] = Counter()
         self.wrong: list[str] = []
-        self.executed = self.refused = 0
-        self._proposal = self._stop_number = 0
+        self.executed = self.refused = self.homes = 0
+        self._proposal = 0
         self._last: dict[str, object] | None = None
 
     @contextlib.contextmanager
     def opened(self) -> Iterator[None]:
         """The worker with its adapter. What waits in real time waits shorter, or 10,000 steps would take a day."""
-        self._stop_line, worker_end = socket.socketpair()
-        frames, self._frames = socket.socketpair()
         with contextlib.ExitStack() as stack:
             for patched in (
-                mock.patch.object(connecting, "backend", return_value=self.arm),
-                mock.patch.object(adapter, "find_eyes", return_value=mock.Mock(return_value=self.eyes)),
                 mock.patch.object(arm, "POLL", 0.0),
                 mock.patch.object(arm, "SILENCE", 0.01),
                 mock.patch.object(arm, "PERIOD", 0.05),
                 mock.patch.object(dead_man, "LOOK", 0.01),
+                mock.patch.object(worker, "FRAME_INTERVAL", 0.0),  # a picture after every set-point
             ):
                 stack.enter_context(patched)
-            self.robot = Robot(StopLatch(worker_end), FrameSender(frames))
-            settings = FrankaSettings(workspace_low=LOW, workspace_high=HIGH, dead_man=0.1)
-            self.robot._adapter = adapter.FrankaAdapter("stacking", settings)  # `build` would look for images' place
-            self.robot._attended = ATTENDED
-            self.robot._images = mock.Mock(put=mock.Mock(return_value="none"))
-            try:
-                yield
-            finally:
-                self.robot.close()
-                for line in (self._stop_line, worker_end, frames, self._frames):
-                    line.close()
+            self.worker = stack.enter_context(still_worker(self.arm, self.eyes, attended=ATTENDED, dead_man=0.1))
+            self.robot = self.worker.robot
+            yield
 
     def step(self) -> None:
         """One thing that happens. Orders come of an approved call or of an operator's wish to go home, else never."""
@@ -202,7 +164,7 @@ class Day:
 
     def breaks(self) -> bool:
         """Something breaks while nothing moves."""
-        match int(self.chance.integers(6)):
+        match int(self.chance.integers(8)):
             case 0:
                 self.arm.mode = self._one_of((Mode.REFLEX, Mode.USER_STOPPED, Mode.DISCONNECTED))
             case 1:
@@ -213,6 +175,10 @@ class Day:
                 self.eyes.lost = True
             case 4:
                 self.arm.newtons = float(self.chance.uniform(0.0, 60.0))
+            case 5:
+                self.eyes.gone = True
+            case 6:
+                self.eyes.broken = True
             case _:
                 self._press_stop()
         return False
@@ -222,11 +188,11 @@ class Day:
         if self.chance.random() < 0.5:
             self._told(self.robot.recover)
         if self.chance.random() < 0.9:
-            self.robot.rearm(upto=self._stop_number)
+            self.robot.rearm(upto=self.worker.stops)
             self._stopped = False
         if self.chance.random() < 0.9:
             self.arm.mode, self.arm.there, self.arm.frozen, self.arm.newtons = Mode.IDLE, True, False, 0.0
-            self.eyes.lost = False
+            self.eyes.lost = self.eyes.gone = self.eyes.broken = False
         return False
 
     def look(self) -> bool:
@@ -236,10 +202,12 @@ class Day:
         return False
 
     def home(self) -> bool:
-        """An operator asks for it: the one motion without a proposal."""
+        """An operator asks for it: the one motion without a proposal. Anything may happen meanwhile."""
         self._attend()
         latched = self._stopped
-        self._told(self.robot.home)
+        kind, late = self._driven(lambda: self._told(self.robot.home), attended=True, trouble=True, most=60)
+        self.homes += bool(self.arm.orders)
+        self._must_have_ended(f"home, {kind}", kind, late)
         return not latched
 
     # their parts
@@ -254,9 +222,30 @@ class Day:
         """To the worker. While it moves, something may happen after so many looks at whether to stop."""
         if attended:
             self._attend()
-        happens, looks = int(self.chance.integers(1, 250)), 0
+        before = len(self.arm.orders)
+
+        def ask() -> None:
+            try:
+                result = self.robot.execute(**request)  # type: ignore[arg-type]
+            except (Refusal, AdapterError) as error:
+                self.refused += 1
+                if len(self.arm.orders) > before:
+                    self.wrong.append(f"refused after {len(self.arm.orders) - before} orders: {error}")
+            else:
+                self.executed += 1
+                self.ends[str(result["end"])] += 1
+
+        kind, late = self._driven(ask, attended=attended, trouble=trouble, most=250)
+        self._must_have_ended(kind, kind, late)
+
+    def _driven(self, ask: Callable[[], object], *, attended: bool, trouble: bool, most: int) -> tuple[str, int]:
+        """Ask for a motion, in which something happens at one of the `most` first looks at whether to stop.
+
+        What that was, and how many orders came after it.
+        """
+        happens, looks = int(self.chance.integers(1, most)), 0
         kind = str(self.chance.choice(["nothing", *_TROUBLE])) if trouble else "nothing"
-        must_stop, since = self.robot._must_stop, 0
+        must_stop, since = self.robot._must_stop, None
 
         def asked() -> bool:
             nonlocal looks, since
@@ -270,17 +259,17 @@ class Day:
             return must_stop()
 
         with mock.patch.object(self.robot, "_must_stop", asked):
-            try:
-                result = self.robot.execute(**request)  # type: ignore[arg-type]
-            except (Refusal, AdapterError):
-                self.refused += 1
-                return
-        self.executed += 1
-        self.ends[str(result["end"])] += 1
-        late = [order for order in self.arm.orders[since:] if order.what != "begin"] if since else []
+            ask()
+        if since is None:
+            return "nothing", 0
+        return kind, len([order for order in self.arm.orders[since:] if order.what != "begin"])
+
+    def _must_have_ended(self, what: str, kind: str, late: int) -> None:
         # the set-point on its way when it happened, and the one that holds still
-        if kind in _MUST_END and since and len(late) > 2:
-            self.wrong.append(f"{kind}: {len(late)} orders afterwards")
+        if kind in _MUST_END and late > 2:
+            self.wrong.append(f"{what}: {late} orders afterwards")
+        if self.arm.driven:
+            self.wrong.append(f"{what}: the arm is still under control")
 
     def _request(self, call: SkillCall, proposal: int) -> dict[str, object]:
         return {
@@ -289,7 +278,7 @@ class Day:
             "digest": call.digest,
             "skill": call.skill,
             "parameters": list(call.parameters),
-            "video": False,
+            "video": True,
         }
 
     def _facts(self) -> dict[str, object]:
@@ -336,12 +325,11 @@ class Day:
         return bool((place >= np.array(LOW) - 0.011).all() and (place <= np.array(HIGH) + 0.011).all())
 
     def _attend(self) -> None:
-        self._stop_line.send(struct.pack(">I", 0))
+        self.worker.attend()
 
     def _press_stop(self) -> None:
-        self._stop_number += 1
         self._stopped = True
-        self._stop_line.send(struct.pack(">I", self._stop_number))
+        self.worker.stop()
 
     def _in_mode(self, mode: Mode) -> None:
         self.arm.mode = mode
@@ -358,6 +346,12 @@ class Day:
     def _push(self) -> None:
         self.arm.newtons = 30.0
 
+    def _lose_cameras(self) -> None:
+        self.eyes.gone = True
+
+    def _break_eyes(self) -> None:
+        self.eyes.broken = True
+
 
 _TROUBLE: dict[str, Callable[[Day], None]] = {
     "stop": Day._press_stop,
@@ -368,7 +362,10 @@ _TROUBLE: dict[str, Callable[[Day], None]] = {
     "states stand still": Day._freeze,
     "driver frozen": Day._sleep,
     "pushed": Day._push,
+    "camera gone": Day._lose_cameras,
+    "eyes broken": Day._break_eyes,
     "the operator leaves": lambda _: time.sleep(ATTENDED + 0.01),
 }
-_MUST_END = frozenset(_TROUBLE) - {"pushed"}
-"""After these no set-point may follow but the one on its way and the one that holds still; a push brakes by some."""
+_MUST_END = frozenset(_TROUBLE) - {"pushed", "camera gone", "eyes broken"}
+"""After these no set-point may follow but the one on its way and the one that holds still; a push brakes by some, and
+nothing of an approved motion rests on a picture. Whatever happened, nothing may be under control after its end."""

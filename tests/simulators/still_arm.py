@@ -10,6 +10,7 @@ from robot_adapters.base import Array
 from robot_adapters.franka.backend import READY, ArmFault, ArmState, Facts, Goal, HandState, Mode
 
 TICK = 0.05 / 3  # s of the robot's clock from one look to the next: three looks a set-point
+WAY_HOME = 20  # looks that the way home lasts
 HOME = np.array([0.307, 0.0, 0.487])
 
 
@@ -30,7 +31,12 @@ class StillArm:
         self.position, self.yaw, self.joints = HOME.copy(), 0.0, READY.copy()
         self.width, self.found = 0.08, 0.04
         self.mode, self.there, self.frozen, self.newtons = Mode.IDLE, True, False, 0.0
-        self._controlled, self._time, self._homing = False, 0.0, False
+        self._controlled, self._time, self._homing = False, 0.0, 0
+
+    @property
+    def driven(self) -> bool:
+        """Whether somebody has control of it."""
+        return self._controlled or self._homing > 0
 
     def facts(self) -> Facts:
         """See `FrankaBackend`."""
@@ -43,7 +49,7 @@ class StillArm:
         self._time += 0.0 if self.frozen else TICK
         cos, sin = np.cos(self.yaw), np.sin(self.yaw)
         rotation = np.array([[cos, sin, 0.0], [sin, -cos, 0.0], [0.0, 0.0, -1.0]])
-        mode = Mode.MOVING if self._controlled and self.mode is Mode.IDLE else self.mode
+        mode = Mode.MOVING if self.driven and self.mode is Mode.IDLE else self.mode
         force, still = np.array([0.0, 0.0, self.newtons]), np.zeros(7)
         return ArmState(self._time, self.position.copy(), rotation, self.joints.copy(), still, force, mode)
 
@@ -69,18 +75,20 @@ class StillArm:
 
     def halt(self) -> None:
         """See `FrankaBackend`."""
-        self._controlled = self._homing = False
+        self._controlled, self._homing = False, 0
 
     def start_joints(self, joints: Array) -> None:
         """See `FrankaBackend`."""
         self._must_be_able()
         self.orders.append(Order("start_joints"))
-        self._homing = True
+        self._homing = WAY_HOME
 
     def joints_arrived(self) -> bool:
         """See `FrankaBackend`."""
-        if self._homing and self.mode is Mode.IDLE:
-            self.position, self.joints, self._homing = HOME.copy(), READY.copy(), False
+        if self._homing and self.mode is Mode.IDLE and not self.frozen:
+            self._homing -= 1
+            if not self._homing:
+                self.position, self.joints = HOME.copy(), READY.copy()
         return not self._homing
 
     def grasp(self) -> None:
