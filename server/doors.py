@@ -11,7 +11,7 @@ from starlette.responses import Response
 
 from server.errors import ServiceError
 from server.hub import Hub
-from server.origin import SAFE_METHODS
+from server.origin import SAFE_METHODS, is_loopback
 from server.principal import LOCAL, Principal
 from server.rates import Rates
 from server.schemas_people import SignedIn, SignIn
@@ -22,6 +22,8 @@ from server.store_people import WrongToken
 
 COOKIE = "seed_session"
 """Of the page. HttpOnly: no script reads it; SameSite: no other site sends it."""
+UNKNOWN = "local"
+"""Stands for the address of who comes by no network."""
 UNCOUNTED = frozenset({"halt_experiment"})
 """Routes that somebody who is let in may ask for at any rate: an emergency stop never waits."""
 LOOK_EVERY = 2.0
@@ -44,9 +46,18 @@ class Doors:
         """Who it is; None: nobody that is known here.
 
         Raises:
-            ServiceError: 429, they ask too often; 403, a page's cookie came without the page's origin.
+            ServiceError: 429, they ask too often; 403, a page's cookie came without the page's origin, or somebody
+            comes from elsewhere although nobody is asked who they are.
         """
         if not self.login:
+            address = _address(connection)
+            if address != UNKNOWN and not is_loopback(address):  # a proxy of this machine has said for whom it asks
+                raise ServiceError(
+                    403,
+                    f"{address} is another machine, and there is no login: only who sits at this one may come in",
+                    remedy="set SEED_LOGIN=1: the service then asks everybody who they are (docs/people.md)",
+                    slug="no-login",
+                )
             return LOCAL
         scheme, _, bearer = connection.headers.get("authorization", "").partition(" ")
         token = bearer.strip() if scheme.lower() == "bearer" else ""
@@ -148,4 +159,4 @@ def _must_be_of_a_page(connection: HTTPConnection) -> None:
 
 
 def _address(connection: HTTPConnection) -> str:
-    return connection.client.host if connection.client is not None else "local"
+    return connection.client.host if connection.client is not None else UNKNOWN

@@ -18,6 +18,7 @@ from server.settings import Settings
 
 SAFE_METHODS = {"GET", "HEAD", "OPTIONS"}
 LOOPBACK_NAMES = {"localhost", "127.0.0.1", "::1"}
+_DEFAULT_PORTS = {"http": ":80", "https": ":443"}
 DRAIN_LIMIT = 32 * 1024 * 1024
 """Bytes of a refused body that are read and thrown away, so that the client gets to read the answer."""
 
@@ -44,19 +45,36 @@ class RemoteNotAllowed(ServiceError):
 
 
 def check_bind(settings: Settings) -> None:
-    """Refuse to listen, without a login, on an address that others reach.
+    """Refuse to listen, without a login, where others reach the service: on their network, or behind a proxy.
 
     Raises:
         RemoteNotAllowed: says how to publish the service safely.
     """
-    if settings.loopback or settings.login:
+    if settings.login:
+        return
+    published = [name for name in settings.allowed_hosts if _name(name) not in LOOPBACK_NAMES]
+    if not settings.loopback:
+        what = f"{settings.host} can be reached by others"
+    elif published:
+        what = f"SEED_ALLOWED_HOSTS names {published[0]}, under which others reach the service"
+    else:
         return
     raise RemoteNotAllowed(
         403,
-        f"{settings.host} can be reached by others, and there is no login: whoever reaches the port can move the robot",
+        f"{what}, and there is no login: whoever reaches the port can move the robot",
         remedy="set SEED_LOGIN=1: the service then asks everybody who they are (docs/people.md); or reach it through a "
         f"tunnel (ssh -L {settings.port}:127.0.0.1:{settings.port} thismachine)",
     )
+
+
+def is_loopback(address: str) -> bool:
+    """Whether whoever calls from there sits at this machine."""
+    try:
+        number = ipaddress.ip_address(address)
+    except ValueError:
+        return address in LOOPBACK_NAMES
+    mapped = number.ipv4_mapped if isinstance(number, ipaddress.IPv6Address) else None
+    return (mapped or number).is_loopback
 
 
 class Guard:
@@ -99,25 +117,39 @@ class Guard:
             )
         origin = headers.get(b"origin")
         unsafe = scope["type"] == "websocket" or scope["method"] not in SAFE_METHODS
-        if unsafe and origin is not None and not self._known_origin(origin, host):
+        if unsafe and origin is not None and not self._known_origin(origin, host, scope["scheme"]):
             return problem(
                 403,
                 f"a page of {origin!r} may not act here",
-                remedy="open the service under its own address",
+                remedy="open the service under its own address; where a proxy in front keeps its port to itself, "
+                "add name:port to SEED_ALLOWED_HOSTS",
                 slug="foreign-origin",
             )
         return None
 
     def _known_host(self, host: str) -> bool:
         name = _name(host)
-        if name in LOOPBACK_NAMES or name in self.settings.allowed_hosts:
+        if name in LOOPBACK_NAMES or name in {_name(allowed) for allowed in self.settings.allowed_hosts}:
             return True
         # rebinding needs a name; an address in numbers is safe where everybody is asked who they are
         return self.settings.login and _is_address(name)
 
-    def _known_origin(self, origin: str, host: str) -> bool:
-        netloc = urlsplit(origin).netloc.lower()
-        return netloc != "" and (netloc == host.lower() or _name(netloc) in self.settings.allowed_hosts)
+    def _known_origin(self, origin: str, host: str, scheme: str) -> bool:
+        """A page of another port is a stranger's, although the cookie goes there too: `SameSite` knows no ports.
+
+        scheme: by what the service was reached; a proxy that doesn't say so makes https look like http.
+        """
+        try:
+            page = urlsplit(origin)
+        except ValueError:
+            return False
+        default = _DEFAULT_PORTS.get(page.scheme)
+        if default is None or page.netloc == "" or (scheme in ("https", "wss") and page.scheme != "https"):
+            return False
+        # a name without its port stands for a page only where a proxy says another one to us
+        named = (a for a in self.settings.allowed_hosts if _name(a) != a or _name(a) != _name(host))
+        ours = {each.strip().lower().removesuffix(default) for each in (host, *named)}
+        return page.netloc.lower().removesuffix(default) in ours
 
 
 def too_large(limit: int) -> Problem:

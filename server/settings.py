@@ -65,7 +65,8 @@ class Settings(BaseSettings):
         NoDecode,
         Field(
             description="comma-separated host names, beside loopback, under which browsers may reach the service, "
-            "e.g. the name of the proxy in front of it"
+            "e.g. the name of the proxy in front of it; name:port where the proxy keeps a port of its own to itself. "
+            "Needs SEED_LOGIN"
         ),
     ] = ()
     log_level: Annotated[

@@ -153,7 +153,7 @@ async def test_a_page_has_a_cookie_that_no_script_reads_and_no_other_site_uses(t
         assert kept.startswith(f"{COOKIE}=")
         assert "HttpOnly" in kept
         assert "SameSite=strict" in kept
-        assert "Secure" not in kept  # plain HTTP here; behind TLS see test_proxy
+        assert "Secure" not in kept  # plain HTTP here; behind TLS see tests/e2e/test_people.py
         assert (await page.get("/api/v1/people")).status_code == 200
         # without the page's own origin the cookie changes nothing
         assert check_problem(await page.post("/api/v1/invitations", json={}), 403).type.endswith("foreign-origin")

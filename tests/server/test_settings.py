@@ -62,6 +62,15 @@ def test_an_address_that_others_reach_is_refused_without_a_login(host: str) -> N
     check_bind(Settings(host=host, login=True))
 
 
+def test_a_name_under_which_others_reach_it_is_refused_without_a_login() -> None:
+    for names in ("lab.example", "localhost, lab.example:8443"):
+        with pytest.raises(ServiceError, match=r"lab\.example") as refused:
+            check_bind(Settings(allowed_hosts=names))
+        assert "SEED_LOGIN=1" in refused.value.remedy
+        check_bind(Settings(allowed_hosts=names, login=True))
+    check_bind(Settings(allowed_hosts="localhost:8443"))
+
+
 @pytest.mark.parametrize("host", ["127.0.0.1", "127.0.0.2", "localhost", "::1"])
 def test_loopback_needs_no_permission(host: str) -> None:
     check_bind(Settings(host=host))
