@@ -11,6 +11,7 @@ import asyncio
 import contextlib
 import dataclasses
 import time
+from collections import deque
 from collections.abc import Callable, Collection, Sequence
 from datetime import UTC, datetime
 
@@ -73,6 +74,7 @@ class Desk:
         self.wanted = wanted
         """How many proposals are to be open, from 1."""
         self._open: dict[int, Proposal] = {}
+        self._closed: deque[Proposal] = deque(maxlen=64)  # late clicks of a crowd find theirs without the store
         self._since: dict[int, float] = {}
         self._considered: set[int] = set()
         self._no_more: int | None = None
@@ -103,8 +105,8 @@ class Desk:
         return [SkillCall(p.skill, tuple(p.parameters.values())) for p in self.opened]
 
     def find(self, proposal_id: int) -> Proposal | None:
-        """The open proposal of this id."""
-        return self._open.get(proposal_id)
+        """A proposal that is open, or was a moment ago."""
+        return self._open.get(proposal_id) or next((each for each in self._closed if each.id == proposal_id), None)
 
     async def present(self, drawn: NewProposal) -> None:
         """Open a proposal, unless an undo has just opened one. It is stored before it is shown.
@@ -349,7 +351,8 @@ class Desk:
 
     def _gone(self, proposal_id: int) -> None:
         """It isn't open any more; another may be proposed."""
-        self._open.pop(proposal_id, None)
+        if (closed := self._open.pop(proposal_id, None)) is not None:
+            self._closed.append(closed)
         self._since.pop(proposal_id, None)
         self._considered.discard(proposal_id)
         self._no_more = None

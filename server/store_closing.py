@@ -6,6 +6,7 @@ answered while others are still asked.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from datetime import UTC, datetime
 
 from sqlalchemy import bindparam, select
@@ -20,10 +21,12 @@ _LABELS = select(FeedbackRow.label).where(
 COUNTER_OF = {1: "good", 0: "neutral", -1: "bad", None: "cant_tell"}
 
 
-def close(session: Session, proposal: ProposalRow, reason: CloseReason) -> None:
-    """It waits for no more answers; those that it has are counted."""
+def close(
+    session: Session, proposal: ProposalRow, reason: CloseReason, said: Iterable[int | None] | None = None
+) -> None:
+    """It waits for no more answers; those that it has are counted. said: these, where they are known already."""
     proposal.close_reason, proposal.closed_at = reason.value, datetime.now(UTC)
-    _count_votes(session, proposal, 1)
+    _count_votes(session, proposal, 1, said)
 
 
 def reopen(session: Session, proposal: ProposalRow) -> None:
@@ -40,10 +43,9 @@ def count(experiment: ExperimentRow, value: int | None, by: int) -> None:
     setattr(experiment, counter, getattr(experiment, counter) + by)
 
 
-def _count_votes(session: Session, proposal: ProposalRow, by: int) -> None:
+def _count_votes(session: Session, proposal: ProposalRow, by: int, said: Iterable[int | None] | None = None) -> None:
     if proposal.purpose != "training":  # an evaluation's approval is no feedback
         return
-    session.flush()
     experiment = session.get_one(ExperimentRow, proposal.experiment_id)
-    for value in session.scalars(_LABELS, {"proposal": proposal.id}):
+    for value in session.scalars(_LABELS, {"proposal": proposal.id}) if said is None else said:
         count(experiment, value, by)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from sqlalchemy import ColumnElement, func, or_, select
+from typing import Any
+
+from sqlalchemy import Select, bindparam, func, or_, select
 from sqlalchemy.orm import Session
 
 from server.models import COUNTING, FeedbackRow, ObservationRow, ProposalRow, RelabelRow, TrainerRow
@@ -13,28 +15,57 @@ from server.store_experiments import journal, load, now
 from server.store_values import Relabelled, StoredLabel
 from server.store_wire import feedback as feedback_wire
 
+_LABELS = (
+    select(
+        FeedbackRow.id,
+        ObservationRow.state,
+        ProposalRow.skill,
+        ProposalRow.parameters,
+        FeedbackRow.label,
+        func.coalesce(RelabelRow.newest(RelabelRow.trainer_id, FeedbackRow), FeedbackRow.trainer_id),
+    )
+    .join(ProposalRow, ProposalRow.id == FeedbackRow.proposal_id)
+    .join(ObservationRow, ObservationRow.id == ProposalRow.observation_id)
+    .where(
+        FeedbackRow.status.in_(COUNTING),
+        FeedbackRow.undone_at.is_(None),
+        FeedbackRow.label.is_not(None),
+        ProposalRow.purpose == "training",
+        ProposalRow.known_answer.is_(None),
+        # a time-out trains nothing, whoever voted before it; where nobody could tell, a correction does
+        # and what was said of a proposal before another one was approved, or just after, is as true as ever
+        or_(ProposalRow.verdict.is_not(None), ProposalRow.close_reason.in_(("cant_tell", "superseded"))),
+    )
+    .order_by(FeedbackRow.id)
+)
+"""What the learner trains from. Made once, as every deciding click asks for its part of it."""
+_OF_EXPERIMENT = _LABELS.where(FeedbackRow.experiment_id == bindparam("experiment"))
+_OF_PROPOSAL = _LABELS.where(FeedbackRow.proposal_id == bindparam("proposal"))
+_OF_CLICK = _LABELS.where(FeedbackRow.id == bindparam("feedback"))
+
 
 def labels(session: Session, experiment_id: int, after_id: int = 0, limit: int | None = None) -> list[StoredLabel]:
     """What the learner trains from, by id; no more than `limit`."""
-    return _labels(session, FeedbackRow.experiment_id == experiment_id, FeedbackRow.id > after_id, limit=limit)
+    query = _OF_EXPERIMENT.where(FeedbackRow.id > after_id).limit(limit)
+    return _labels(session, query, experiment=experiment_id)
 
 
 def labels_before(session: Session, experiment_id: int, before_id: int | None, limit: int) -> list[StoredLabel]:
     """The newest of those, by id; older than that one. No more than `limit`."""
-    where = [FeedbackRow.experiment_id == experiment_id]
+    query = _OF_EXPERIMENT.order_by(None).order_by(FeedbackRow.id.desc()).limit(limit)
     if before_id is not None:
-        where.append(FeedbackRow.id < before_id)
-    return _labels(session, *where, limit=limit, newest=True)[::-1]
+        query = query.where(FeedbackRow.id < before_id)
+    return _labels(session, query, experiment=experiment_id)[::-1]
 
 
 def labels_of(session: Session, proposal_id: int) -> list[StoredLabel]:
     """What the learner trains from this proposal."""
-    return _labels(session, FeedbackRow.proposal_id == proposal_id)
+    return _labels(session, _OF_PROPOSAL, proposal=proposal_id)
 
 
 def labels_of_click(session: Session, feedback_id: int) -> list[StoredLabel]:
     """What the learner trains from this click: one label at most."""
-    return _labels(session, FeedbackRow.id == feedback_id)
+    return _labels(session, _OF_CLICK, feedback=feedback_id)
 
 
 def relabel(session: Session, feedback_id: int, body: RelabelCreate, *, anybodys: bool) -> Relabelled:
@@ -102,30 +133,8 @@ def _must_be_correctable(row: FeedbackRow, proposal: ProposalRow, by: str, *, an
         )
 
 
-def _labels(
-    session: Session, *where: ColumnElement[bool], limit: int | None = None, newest: bool = False
-) -> list[StoredLabel]:
-    corrector = RelabelRow.newest(RelabelRow.trainer_id, FeedbackRow)
-    value, trainer_id = FeedbackRow.label, func.coalesce(corrector, FeedbackRow.trainer_id)
-    query = (
-        select(FeedbackRow.id, ObservationRow.state, ProposalRow.skill, ProposalRow.parameters, value, trainer_id)
-        .join(ProposalRow, ProposalRow.id == FeedbackRow.proposal_id)
-        .join(ObservationRow, ObservationRow.id == ProposalRow.observation_id)
-        .where(
-            *where,
-            FeedbackRow.status.in_(COUNTING),
-            FeedbackRow.undone_at.is_(None),
-            value.is_not(None),
-            ProposalRow.purpose == "training",
-            ProposalRow.known_answer.is_(None),
-            # a time-out trains nothing, whoever voted before it; where nobody could tell, a correction does
-            # and what was said of a proposal before another one was approved, or just after, is as true as ever
-            or_(ProposalRow.verdict.is_not(None), ProposalRow.close_reason.in_(("cant_tell", "superseded"))),
-        )
-        .order_by(FeedbackRow.id.desc() if newest else FeedbackRow.id)
-        .limit(limit)
-    )
+def _labels(session: Session, query: Select[Any], **where: int) -> list[StoredLabel]:
     return [
         StoredLabel(feedback_id, tuple(state), skill, tuple(parameters), label, whose)
-        for feedback_id, state, skill, parameters, label, whose in session.execute(query)
+        for feedback_id, state, skill, parameters, label, whose in session.connection().execute(query, where)
     ]

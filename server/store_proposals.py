@@ -7,6 +7,7 @@ from typing import Any
 
 from sqlalchemy import and_, bindparam, func, select
 from sqlalchemy.orm import Session
+from sqlalchemy.orm.attributes import set_committed_value
 
 from server import lifecycle, schemas, store_gold
 from server.models import EpisodeRow, EvaluationRow, ExecutionRow, ExperimentRow, ObservationRow, ProposalRow
@@ -14,6 +15,7 @@ from server.store_closing import close
 from server.store_errors import Conflict, NotFound
 from server.store_experiments import begin_episode, journal, must_be_running, now, state
 from server.store_practice import may_count
+from server.store_rows import add, save
 from server.store_values import NewProposal, NewView
 
 CONTENT = (
@@ -49,6 +51,11 @@ _OPEN = (
         ProposalRow.robot == bindparam("robot"),
         ProposalRow.closed_at.is_(None),
     )
+)
+_ENDED = (
+    select(ProposalRow.close_reason, ProposalRow.verdict, EpisodeRow.ended_at)
+    .join(EpisodeRow, EpisodeRow.id == ProposalRow.episode_id)
+    .where(ProposalRow.id == bindparam("proposal"))
 )
 _OBSERVATION = select(ObservationRow).where(
     ObservationRow.experiment_id == bindparam("experiment"), ObservationRow.uid == bindparam("uid")
@@ -91,11 +98,13 @@ def open_proposal(session: Session, new: NewProposal) -> ProposalRow:
     number = (newest or 0) + 1
     known = store_gold.drawn(session, experiment, new, number)
     again = known.again if known is not None else None
+    content = _content(session, new) if again is None else {name: getattr(again, name) for name in CONTENT}
     row = ProposalRow(
         experiment_id=new.experiment_id,
         robot=new.robot,
         slot=new.slot,
-        episode=episode,
+        episode_id=episode.id,
+        observation_id=content["observation"].id,
         number=number,
         purpose=new.purpose,
         # who has to practise first has no vote that anybody could wait for
@@ -105,20 +114,23 @@ def open_proposal(session: Session, new: NewProposal) -> ProposalRow:
         opened_at=now(),
         known_answer=known.answer if known is not None else None,
         gold_of=again.id if again is not None else None,
-        heard=[],
-        **(_content(session, new) if again is None else {name: getattr(again, name) for name in CONTENT}),
+        audit=False,
+        **{name: value for name, value in content.items() if name != "observation"},
     )
-    session.add(row)
+    add(session, row)
+    for name, value in {"episode": episode, "observation": content["observation"], "heard": []}.items():
+        set_committed_value(row, name, value)
     if new.purpose == "training":
         experiment.proposals += 1
         experiment.updated_at = now()
+        save(session, experiment)
     else:
         running = select(EvaluationRow).where(
             EvaluationRow.experiment_id == new.experiment_id, EvaluationRow.ended_at.is_(None)
         )
         for evaluation in session.scalars(running):
             evaluation.policy_version = new.policy_version
-    session.flush()
+        session.flush()
     return row
 
 
@@ -128,12 +140,7 @@ def must_have_led_to_nothing(session: Session, proposal_id: int) -> None:
     Raises:
         Conflict: it is open, closed without a verdict, or good; or its scene isn't there any more.
     """
-    query = (
-        select(ProposalRow.close_reason, ProposalRow.verdict, EpisodeRow.ended_at)
-        .join(EpisodeRow, EpisodeRow.id == ProposalRow.episode_id)
-        .where(ProposalRow.id == proposal_id)
-    )
-    found = session.execute(query).one_or_none()
+    found = session.connection().execute(_ENDED, {"proposal": proposal_id}).one_or_none()
     if found is None:
         raise NotFound("proposal", proposal_id)
     close_reason, verdict, ended_at = found
@@ -158,7 +165,7 @@ def close_proposal(session: Session, proposal_id: int, reason: schemas.CloseReas
 def _must_stand_still(session: Session, new: NewProposal, moving: int | None) -> None:
     """The slot is free, what else is open is of the same scene, and the robot doesn't move."""
     where = {"experiment": new.experiment_id, "robot": new.robot}
-    for other, slot, gold_of, uid in session.execute(_OPEN, where):
+    for other, slot, gold_of, uid in session.connection().execute(_OPEN, where):
         if slot == new.slot:
             raise Conflict(f"proposal {other} is open", remedy="wait until it is judged, or close it")
         # a gold one may show an earlier scene again
@@ -182,7 +189,7 @@ def _observation(session: Session, new: NewProposal) -> ObservationRow:
     row = ObservationRow(
         experiment_id=new.experiment_id, uid=new.observation_id, state=values, taken_at=float(new.taken_at)
     )
-    session.add(row)
+    add(session, row)
     return row
 
 

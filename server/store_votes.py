@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any
 
 from sqlalchemy import Row, and_, bindparam, insert, select
@@ -19,6 +19,7 @@ from server.store_errors import Conflict, NotFound
 from server.store_experiments import journal, load, now
 from server.store_labels import labels_of, labels_of_click, trainer
 from server.store_proposals import load_proposal
+from server.store_rows import save
 from server.store_values import Concluded, Submission
 from server.store_wire import feedback as feedback_wire
 from server.store_wire import proposal as proposal_wire
@@ -90,7 +91,7 @@ def submit(
             judged it already or has no vote on it.
     """
     asked = {"proposal": proposal_id, "click_id": click.click_id, "trainer": click.trainer, "kind": kind}
-    found = session.execute(_FOUND, asked).one_or_none()
+    found = session.connection().execute(_FOUND, asked).one_or_none()
     if found is None or found.known is not None:
         return _again(session, proposal_id, click, found)
     if found.purpose != "training":
@@ -113,6 +114,7 @@ def submit(
         proposal, experiment = _judged(session, proposal_id)
         count(experiment, click.label, 1)
         experiment.updated_at = feedback.received_at
+        save(session, experiment)
         labels = labels_of_click(session, feedback.id)
         return Submission(_why(feedback, late_because), duplicate=False, heard=_told(session, proposal), labels=labels)
     if status == "late":
@@ -121,7 +123,9 @@ def submit(
     cast[click.trainer] = click.label
     _conclude(session, experiment, proposal, cast)
     experiment.updated_at = now()
-    told = _told(session, proposal, cast)
+    save(session, proposal)
+    save(session, experiment)
+    told = proposal_wire(proposal, cast)
     if proposal.closed_at is None:
         return Submission(feedback, duplicate=False, heard=told)
     return Submission(feedback, duplicate=False, heard=told, closed=told, labels=labels_of(session, proposal_id))
@@ -142,7 +146,7 @@ def approve_evaluation(session: Session, proposal_id: int) -> ProposalRow:
 
 def votes(session: Session, proposal_id: int) -> dict[str, int | None]:
     """Counted votes, trainer -> value as it was clicked, in the order they came; None: can't tell."""
-    return dict(session.execute(_VOTES, {"proposal": proposal_id}).all())
+    return dict(session.connection().execute(_VOTES, {"proposal": proposal_id}).all())
 
 
 def verdict_of(
@@ -221,11 +225,15 @@ def update(
 
 
 def judge(
-    session: Session, proposal: ProposalRow, verdict: schemas.Verdict, source: schemas_trust.VerdictSource
+    session: Session,
+    proposal: ProposalRow,
+    verdict: schemas.Verdict,
+    source: schemas_trust.VerdictSource,
+    said: Iterable[int | None] | None = None,
 ) -> None:
-    """Close it with a verdict."""
+    """Close it with a verdict. said: the votes on it, where they are known already."""
     proposal.verdict, proposal.verdict_source = verdict.value, source.value
-    close(session, proposal, schemas.CloseReason.JUDGED)
+    close(session, proposal, schemas.CloseReason.JUDGED, said)
 
 
 def _open(session: Session, experiment_id: int) -> Sequence[ProposalRow]:
@@ -248,9 +256,9 @@ def _conclude(
     verdict = verdict_of(session, experiment, proposal, cast)
     if verdict is not None:
         proposal.rule = experiment.aggregation
-        judge(session, proposal, verdict, schemas_trust.VerdictSource.TRAINERS)
+        judge(session, proposal, verdict, schemas_trust.VerdictSource.TRAINERS, cast.values())
     elif aggregation.nobody_could_tell(cast, proposal.electorate):
-        close(session, proposal, schemas.CloseReason.CANT_TELL)
+        close(session, proposal, schemas.CloseReason.CANT_TELL, cast.values())
 
 
 def _concluded(session: Session, proposal: ProposalRow) -> Concluded:
@@ -258,9 +266,9 @@ def _concluded(session: Session, proposal: ProposalRow) -> Concluded:
     return Concluded(told, labels_of(session, proposal.id) if proposal.closed_at is not None else ())
 
 
-def _told(session: Session, proposal: ProposalRow, heard: Collection[str] | None = None) -> schemas.Proposal:
+def _told(session: Session, proposal: ProposalRow) -> schemas.Proposal:
     session.flush()
-    return proposal_wire(proposal, heard)
+    return proposal_wire(proposal)
 
 
 def _again(session: Session, proposal_id: int, click: schemas.FeedbackCreate, found: Row[Any] | None) -> Submission:
