@@ -33,7 +33,8 @@ from server.schemas import (
 from server.store import Conflict, Store
 from tests.server.stage import Stage, stage
 
-SLOW = {"step_seconds": 0.02}
+SLOW = {"step_seconds": 0.3}
+"""A skill takes some five seconds: it still moves when it is killed or stopped, however busy the machine is."""
 
 
 def kill(s: Stage, experiment_id: int, role: str) -> None:

@@ -12,7 +12,8 @@ from server.schemas import EvaluationCreate, ExecutionOutcome, FeedbackStatus, L
 from server.store import Conflict, NotFound
 from tests.server.stage import stage
 
-SLOW = {"step_seconds": 0.05}
+SLOW = {"step_seconds": 0.3}
+"""A skill takes some five seconds: time to stop it, and still to wait for the end of another."""
 
 
 async def test_verbs_out_of_place_are_refused_and_change_nothing(tmp_path: Path) -> None:

@@ -31,7 +31,8 @@ from server.seeds import episode_seed
 from server.store import Conflict
 from tests.server.stage import Stage, stage
 
-SLOW = {"step_seconds": 0.02}
+SLOW = {"step_seconds": 0.5}
+"""A skill takes some eight seconds, and is stopped in the midst of it."""
 
 
 async def test_bad_neutral_good_and_undo(tmp_path: Path) -> None:

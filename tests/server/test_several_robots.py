@@ -19,8 +19,8 @@ from server.store import Conflict, NotFound
 from server.worker import CommandFailed
 from tests.server.stage import Stage, stage
 
-SLOW = {"step_seconds": 0.15}
-"""A skill takes some two and a half seconds."""
+SLOW = {"step_seconds": 0.4}
+"""A skill takes some seven seconds: one robot moves on while another is killed."""
 ENDLESS = {"step_seconds": 1.0}
 """A skill would take twenty seconds: it is stopped long before."""
 

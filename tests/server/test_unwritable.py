@@ -13,7 +13,8 @@ from server.store import Conflict, Full, Store
 from tests.server.serving import event, serving
 from tests.server.stage import stage
 
-SLOW = {"step_seconds": 0.05}
+SLOW = {"step_seconds": 0.5}
+"""A skill takes some eight seconds, and is stopped in the midst of it."""
 
 
 class Disk:

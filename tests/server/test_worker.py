@@ -21,6 +21,8 @@ from server.worker import CommandFailed, Worker, WorkerDied, WorkerTimeout
 
 DEADLINE = 60.0
 PICK = SkillCall("pick", (0.6, 0.1, -0.05))
+SLOW = 0.3
+"""s of a set-point: a skill takes some five seconds, and still moves when it is killed or stopped."""
 
 
 class Robot:
@@ -151,7 +153,8 @@ async def test_a_call_outside_the_workspace_is_refused_and_the_worker_stays(robo
     assert (await robot.execute(2))["low_level_steps"] > 0
 
 
-async def test_stop_ends_a_moving_skill_and_stays_until_rearmed(robot: Robot) -> None:
+async def test_stop_ends_a_moving_skill_and_stays_until_rearmed(tmp_path: Path) -> None:
+    robot = await build(tmp_path, SLOW)
     running = asyncio.create_task(robot.execute())
     await robot.moved.wait()
     robot.worker.stop(1)
@@ -164,6 +167,7 @@ async def test_stop_ends_a_moving_skill_and_stays_until_rearmed(robot: Robot) ->
         await robot.call("reset", seed=1)
     await robot.call("rearm", upto=1)
     assert not (await robot.execute(3))["stopped"]
+    await robot.worker.close()
 
 
 async def test_rearming_lifts_no_later_stop(robot: Robot) -> None:
@@ -173,7 +177,8 @@ async def test_rearming_lifts_no_later_stop(robot: Robot) -> None:
         await robot.execute()
 
 
-async def test_a_death_is_noticed_by_whoever_waits(robot: Robot) -> None:
+async def test_a_death_is_noticed_by_whoever_waits(tmp_path: Path) -> None:
+    robot = await build(tmp_path, SLOW)
     running = asyncio.create_task(robot.execute())
     await robot.moved.wait()
     os.kill(robot.worker.pid, signal.SIGKILL)
@@ -183,6 +188,7 @@ async def test_a_death_is_noticed_by_whoever_waits(robot: Robot) -> None:
     with pytest.raises(WorkerDied):
         await robot.call("observe")
     assert (await robot.worker.death()).worker == "robot"
+    await robot.worker.close()
 
 
 async def test_a_death_is_noticed_by_a_command_that_finds_the_pipe_broken(robot: Robot) -> None:
