@@ -65,6 +65,8 @@ class LiveService:
             "SEED_CREATE_FIRST_EXPERIMENT": "false",
             # Workers share two cores with a browser here.
             "OMP_NUM_THREADS": "1",
+            # Nor is a service that the browser keeps waiting for a second one that has left its robot alone.
+            "SEED_OPERATOR_SILENCE": "10",
             **settings,
         }
 

@@ -35,6 +35,7 @@ def driving(settings: FrankaSettings) -> Driving:
         stiffness=settings.stiffness,
         force=settings.force,
         reflex=settings.reflex,
+        silence=max(SILENCE, settings.dead_man),
     )
 
 

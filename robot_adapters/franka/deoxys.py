@@ -24,8 +24,8 @@ AGAIN = 0.05
 """s between two commands; Deoxys wants twenty a second."""
 TIMEOUT = 0.2
 """s after which Deoxys stops the arm by itself where no command comes."""
-SILENCE = 0.5
-"""s without a state after which the arm counts as gone."""
+ONCE_MORE = 0.1
+"""s for a state to come before the arm counts as gone: after a pause of this process what came waits to be read."""
 PATIENCE = 3.0
 """s for the first states: sockets connect in the background."""
 SETTLED = 0.35
@@ -91,7 +91,9 @@ class Deoxys:
     def state(self) -> ArmState:
         """See `FrankaBackend`."""
         self._hear(0.0)
-        if time.monotonic() - self._heard_at > SILENCE:
+        if self._unheard():
+            self._hear(ONCE_MORE)
+        if self._unheard():
             raise ArmFault("Deoxys doesn't tell of the arm any more", mode=Mode.DISCONNECTED)
         raw, modes = self._state, self._messages.FrankaRobotStateMessage
         known = {modes.Other: Mode.IDLE, modes.Idle: Mode.IDLE, modes.Move: Mode.MOVING, modes.Reflex: Mode.REFLEX}
@@ -187,6 +189,9 @@ class Deoxys:
             self._closed.set()
             self._thread.join()
             self._context.destroy(linger=100)
+
+    def _unheard(self) -> bool:
+        return time.monotonic() - self._heard_at > self._driving.silence
 
     def _bound(self, port: int) -> Any:
         socket = self._context.socket(self._zmq.PUB)

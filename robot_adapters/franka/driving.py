@@ -18,7 +18,7 @@ class Driving:
     host: of the control box (deoxys: of the arm's computer). bind: address of this PC that Deoxys listens to. realtime:
     refuse to run without a real-time kernel. stiffness: N/m. force: N at the hand at which a motion ends. reflex: N at
     the hand at which the robot stops itself. leash: m that the goal may be ahead. homing_fraction: of each joint's own
-    limits, on the way home.
+    limits, on the way home. silence: s without a new state after which the arm counts as gone.
     """
 
     host: str
@@ -32,6 +32,7 @@ class Driving:
     force: float = 25.0
     reflex: float = 45.0
     homing_fraction: float = 0.15
+    silence: float = 0.5
 
     def collision_behaviour(self) -> tuple[list[float], list[float], list[float], list[float]]:
         """Lower and upper torques (7,) Nm, lower and upper forces (6,) N and Nm."""

@@ -68,7 +68,7 @@ def _spread(milliseconds: Array) -> str:
 def _measure(backend: str) -> Found:
     stacking, chance, found = task("stacking"), np.random.default_rng(7), Found()
     with tempfile.TemporaryDirectory() as directory:
-        service = LiveService(Path(directory) / "data", SEED_OPERATOR_SILENCE="10")
+        service = LiveService(Path(directory) / "data")
         try:
             service.start()
             with SimulatedFranka(table=stacking.table_height, blocks=BLOCKS) as lab:

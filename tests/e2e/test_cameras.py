@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Page, ViewportSize, expect
 
+from tests.e2e.test_pages import fits
 from tests.e2e.trainer import START_MS, Opener
 from tests.live import LiveService, wait_for
 from tests.robot_adapters.franka.conftest import APART
@@ -37,11 +38,6 @@ def taken(page: Page, count: int) -> None:
     for camera in BOTH:
         counted = page.get_by_test_id(f"guide-{camera}").get_by_test_id("taken")
         expect(counted).to_have_text(f"{count} of {POSES} poses", timeout=START_MS)
-
-
-def fits(page: Page) -> bool:
-    """Whether nothing sticks out to the side."""
-    return bool(page.evaluate("() => document.documentElement.scrollWidth <= window.innerWidth"))
 
 
 def test_cameras_are_calibrated_by_clicks_also_over_a_reload_and_on_a_phone(
@@ -70,7 +66,7 @@ def test_cameras_are_calibrated_by_clicks_also_over_a_reload_and_on_a_phone(
             page.reload()
             taken(page, number)
     expect(page.get_by_test_id("guide-advice")).to_have_attribute("data-advice", "enough")
-    assert fits(page)
+    fits(page)
     page.get_by_test_id("guide-solve").click()
     result = page.get_by_test_id("guide-result")
     for camera in BOTH:
@@ -80,7 +76,7 @@ def test_cameras_are_calibrated_by_clicks_also_over_a_reload_and_on_a_phone(
     page.set_viewport_size(PHONE)
     page.reload()
     expect(result).to_be_visible(timeout=START_MS)
-    assert fits(page)
+    fits(page)
     assert not list(where.glob("*.json"))
     lab.let_go()
     page.get_by_test_id("guide-store").click()

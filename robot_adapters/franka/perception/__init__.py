@@ -25,6 +25,7 @@ class PerceptionSettings(BaseModel):
     tags: str = Field("", description="Tag file of the task; empty: the one that comes with SEED.")
     table_height: float | None = Field(None, ge=-1.0, le=1.0, description="As in the adapter's settings.")
     lost_after: float = Field(3.0, gt=0.0, le=60.0, description="s unseen until an object counts as lost.")
+    silence: float = Field(2.0, gt=0.0, le=30.0, description="s without a new picture until a camera counts as gone.")
     jpeg_quality: int = Field(90, ge=30, le=100, description="JPEG quality of the pictures that trainers judge.")
 
 

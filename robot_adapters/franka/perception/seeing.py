@@ -163,7 +163,7 @@ class Perception:
         opened = source or (read.source if read is not None else "")
         reference = None if read is None else Reference(read.reference, read.fixed_tags)
         standing = Standing(True, None, "not looked at yet")
-        watch = Watch(name, lambda: open_camera(opened))
+        watch = Watch(name, lambda: open_camera(opened), silence=self._settings.silence)
         return _Eye(watch, opened, read, reference, TagDetector(), standing, self._stamp(name))
 
     def _stamp(self, name: str) -> float:

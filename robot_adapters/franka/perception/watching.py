@@ -11,7 +11,7 @@ from robot_adapters.base import AdapterError
 from robot_adapters.franka.perception.camera import Camera, CameraLost, Lens, Picture
 
 SILENT = 2.0
-"""s without a new picture after which a camera counts as dead."""
+"""s without a new picture after which a camera counts as dead, unless told otherwise."""
 FIRST = 8.0
 """s that the first picture may take: exposure settles, USB is set up."""
 AGAIN = 1.0
@@ -21,8 +21,8 @@ AGAIN = 1.0
 class Watch:
     """One camera that is being read. One that is lost is opened again, as soon as it is there again."""
 
-    def __init__(self, name: str, opener: Callable[[], Camera]) -> None:
-        """Open it, and begin to read.
+    def __init__(self, name: str, opener: Callable[[], Camera], *, silence: float = SILENT) -> None:
+        """Open it, and begin to read. silence: s without a new picture after which it counts as dead.
 
         Raises:
             Unavailable: it can't be had.
@@ -30,6 +30,7 @@ class Watch:
         self.name = name
         self.openings = 1
         """How often it was opened: one that was away may have been moved meanwhile."""
+        self._silence = silence
         self._open = opener
         self._camera = opener()
         self.lens: Lens | None = self._camera.lens
@@ -43,8 +44,8 @@ class Watch:
             self._thread = threading.Thread(target=self._read, name=f"camera {name}", daemon=True)
             self._thread.start()
 
-    def latest(self, *, after: float = 0.0, patience: float = SILENT) -> Picture:
-        """The newest picture that was taken after `after` (seconds since the epoch); waits up to `patience` s.
+    def latest(self, *, after: float = 0.0) -> Picture:
+        """The newest picture that was taken after `after` (seconds since the epoch); waits until the camera is dead.
 
         A recording gives its next picture instead if an `after` is asked for.
 
@@ -53,10 +54,8 @@ class Watch:
         """
         if self._thread is None:
             return self._next(after)
-        if self._newest is None:
-            patience = max(patience, FIRST)
         with self._changed:
-            self._changed.wait_for(lambda: self._failure is not None or self._fresh(after), patience)
+            self._changed.wait_for(lambda: self._failure is not None or self._fresh(after), self._patience())
             # an old picture of a camera that is gone would be taken for what is there now
             if self._newest is not None and self._fresh(after) and self.trouble() is None:
                 return self._newest
@@ -69,7 +68,7 @@ class Watch:
         if self._thread is None:
             return None
         silence = time.monotonic() - self._heard
-        if silence > (SILENT if self._newest is not None else FIRST):
+        if silence > self._patience():
             return f"no picture for {silence:.0f} s"
         return None
 
@@ -80,6 +79,9 @@ class Watch:
             self._thread.join(8.0)
         else:
             self._camera.close()
+
+    def _patience(self) -> float:
+        return self._silence if self._newest is not None else max(self._silence, FIRST)
 
     def _fresh(self, after: float) -> bool:
         return self._newest is not None and self._newest.taken_at > after

@@ -22,19 +22,6 @@ both = pytest.mark.parametrize("backend", ["franka_rs", "franky"])
 second_is_long = pytest.mark.parametrize("backend", ["franka_rs", pytest.param("franky", marks=pytest.mark.long)])
 
 
-@pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveService]:
-    """A running service that a busy machine may keep from passing the operator's word on for some seconds."""
-    live = LiveService(tmp_path_factory.mktemp("service") / "data", SEED_OPERATOR_SILENCE="10")
-    try:
-        live.start()
-        yield live
-        live.stop()
-    finally:
-        live.sweep()
-        live.http.close()
-
-
 @pytest.fixture
 def lab() -> Iterator[SimulatedFranka]:
     with SimulatedFranka(table=TABLE, blocks=BLOCKS) as simulated:

@@ -24,9 +24,12 @@ from tests.robot_adapters.franka.perception.poses import BOARD_FROM_MIDDLE, HAND
 from tests.robot_adapters.franka.perception.rendering import EYES, TABLE, Solid, Stage, view
 from tests.simulators.deoxys_peer import HOME, DeoxysPeer
 from tests.simulators.franka import free_host
+from tests.simulators.session import UNHURRIED
 
 AGAIN = 0.4
 """s after which a stream sends the same picture again: cameras never pause, and a slow reader keeps up with it."""
+SILENCE = 10.0
+"""s without a picture that these cameras may take, because what draws them shares the machine with who looks."""
 HALVES = {"block_a": 0.02, "block_b": 0.025}
 REACH = 0.03
 """m from the grip site at which closing fingers take a block."""
@@ -98,8 +101,14 @@ class Lab:
     def settings(self, calibration: Path) -> dict[str, object]:
         """Of the Franka adapter, with the folder of the calibrations."""
         cameras = {name: self.source(name) for name in self.views}
-        eyes = {"cameras": cameras, "calibration": str(calibration), "lost_after": 2.0}
-        return {"backend": "deoxys", "host": self.host, "deoxys_bind": self.pc, "eyes_settings": eyes}
+        eyes = {"cameras": cameras, "calibration": str(calibration), "lost_after": 2.0, "silence": SILENCE}
+        return {
+            "backend": "deoxys",
+            "host": self.host,
+            "deoxys_bind": self.pc,
+            "dead_man": UNHURRIED,
+            "eyes_settings": eyes,
+        }
 
     @property
     def shown(self) -> bool:
