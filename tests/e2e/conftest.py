@@ -8,10 +8,12 @@ from typing import Any
 
 import httpx
 import pytest
-from playwright.sync_api import Page
+from playwright.sync_api import Page, expect
 
 from tests.e2e.trainer import Opener, TrainerPage
 from tests.live import LiveService
+
+expect.set_options(timeout=30_000)  # ms; Playwright's own five seconds are few on two cores that others work on too
 
 
 @pytest.fixture

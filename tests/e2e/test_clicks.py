@@ -55,7 +55,7 @@ def test_a_kept_click_waits_for_who_clicked_whoever_sits_there_meanwhile(opener:
         trainer.connected()
         expect(trainer.connection).not_to_contain_text(ONE_KEPT)
     # The restart had closed the proposal: the click is stored, and the page says that it came late.
-    expect(trainer.notices).to_contain_text("came too late")
+    trainer.told("came too late")
     assert clicks(trainer) == [(proposal, 0, "late")]
     (stored,) = trainer.service.get(f"/proposals/{proposal}/feedback")["items"]
     assert stored["trainer"] == "local"
@@ -68,7 +68,7 @@ def test_a_click_that_came_too_late_says_so_and_decides_nothing(opener: Opener, 
     trainer.press(1)
     service.post(f"/proposals/{proposal}/feedback", {"click_id": "somebody-else-1", "value": -1, "trainer": "other"})
     go_online(trainer)
-    expect(trainer.notices).to_contain_text("came too late")
+    trainer.told("came too late")
     assert clicks(trainer) == [(proposal, -1, "stored"), (proposal, 1, "late")]
     assert trainer.stored(proposal)["verdict"] == "bad"
     assert trainer.counters()["executions"] == 0
@@ -152,7 +152,7 @@ def test_a_double_click_judges_one_proposal_and_says_so(opener: Opener) -> None:
 
 
 def test_a_pause_during_a_motion_says_that_it_still_moves(opener: Opener, service: LiveService) -> None:
-    trainer = opener(mode="execute_approved", adapter_settings={"step_seconds": 0.05})
+    trainer = opener(mode="execute_approved", adapter_settings={"step_seconds": 0.5})
     trainer.drawn()
     trainer.press(1)
     expect(trainer.activity).to_contain_text("Executing")

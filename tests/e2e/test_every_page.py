@@ -12,7 +12,7 @@ from playwright.sync_api import Page, expect
 
 from agent.study.figures import write_figures
 from agent.study.results import write_results
-from tests.e2e.test_pages import FITS, PHONE, accessible
+from tests.e2e.test_pages import PHONE, accessible, fits
 from tests.e2e.test_research import taught
 from tests.live import ROOT, LiveService
 from tests.server.study_folder import begun, plan
@@ -119,9 +119,9 @@ def test_no_page_breaks_a_rule_or_asks_another_server(
         expect(page.locator(LOADING)).to_have_count(0)
         expect(page.locator("html")).to_have_attribute("lang", language)
         accessible(page)
-        page.wait_for_function(FITS)
+        fits(page)
         page.set_viewport_size({"width": PHONE["width"], "height": PHONE["height"]})
-        page.wait_for_function(FITS)
+        fits(page)
     assert not foreign
     assert not broken
     sheets = page.evaluate("[...document.styleSheets].flatMap((s) => [...s.cssRules]).map((r) => r.cssText).join('')")

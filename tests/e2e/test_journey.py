@@ -87,7 +87,7 @@ def test_train_stop_nothing_and_stack(page: Page, service: LiveService) -> None:
     assert trainer.drawn() == true_place
     trainer.shows_feedback(10)
     trainer.click(1)
-    expect(trainer.notices).to_contain_text("Task solved", timeout=START_MS)
+    trainer.told("Task solved")
     expect(trainer.test_id("count-successes")).to_have_text("1")
     service.post(f"{trainer.path}/finish")
 
@@ -106,7 +106,7 @@ def test_a_killed_server_loses_no_click_and_repeats_no_motion(opener: Opener, se
     trainer.connected()
 
     # The proposal was closed when the server came back, so the click is stored and decides nothing.
-    expect(trainer.notices).to_contain_text("came too late")
+    trainer.told("came too late")
     expect(trainer.test_id("lifecycle")).to_have_text("paused")
     rows = service.rows(
         "SELECT proposal_id, status FROM feedback WHERE experiment_id = ? ORDER BY id", trainer.experiment

@@ -7,7 +7,7 @@ import re
 
 from playwright.sync_api import Page, expect
 
-from tests.e2e.test_pages import FITS, PHONE, accessible, fits
+from tests.e2e.test_pages import PHONE, accessible, fits
 from tests.e2e.trainer import KEYS, START_MS, Opener
 from tests.live import LiveService, wait_for
 
@@ -38,7 +38,7 @@ def test_a_new_trainer_practises_by_keyboard_until_their_clicks_count(
     trainer = opener(mode="propose_only", practice_required={"proposals": 2, "accuracy": 1.0})
     proposal = trainer.drawn()
     trainer.press(-1)
-    expect(trainer.notices).to_contain_text("doesn't count yet")
+    trainer.told("doesn't count yet")
     assert trainer.stored(proposal)["closed_at"] is None
     expect(trainer.test_id("practise-first")).to_be_visible()
     accessible(page)
@@ -55,7 +55,7 @@ def test_a_new_trainer_practises_by_keyboard_until_their_clicks_count(
     answer(right=False)
     page.set_viewport_size({"width": PHONE["width"], "height": PHONE["height"]})
     accessible(page)
-    assert fits(page)
+    fits(page)
     for number in range(2):
         expect(trainer.test_id("next")).to_be_focused()
         page.keyboard.press("Enter")
@@ -102,7 +102,7 @@ def test_everybodys_figures_are_shown_and_taken_away_as_a_table(
     rows = list(csv.DictReader(service.http.get(str(link)).text.splitlines()))
     assert [(row["trainer"], row["status"]) for row in rows][:2] == [("local", "stored"), ("bob", "late")]
     page.set_viewport_size({"width": PHONE["width"], "height": PHONE["height"]})
-    page.wait_for_function(FITS)
+    fits(page)
     page.get_by_label("Practice before clicks count").select_option("on")
     expect(trainer.test_id("practise-first")).to_be_visible()
     page.get_by_label("Hidden known answers").select_option("0.05")
@@ -110,7 +110,7 @@ def test_everybodys_figures_are_shown_and_taken_away_as_a_table(
     trainer.test_id("past").first.click()
     accessible(page)
     trainer.test_id("mark-bad").click()
-    expect(trainer.notices).to_contain_text("shown again")
+    trainer.told("shown again")
     (mark,) = service.rows("SELECT answer FROM gold_mark")
     assert mark["answer"] == -1
     page.keyboard.press("Escape")

@@ -61,7 +61,7 @@ def test_who_has_vanished_clicks_on_and_each_click_is_stored_once_when_the_netwo
 
         cable.plug_in()
         bob.connected()
-        expect(bob.notices).to_contain_text("came too late")
+        bob.told("came too late")
         wait_for(lambda: len(_rows(service, bob)) == 3, "every click")
         assert _rows(service, bob) == [
             (first, "ann", "stored"),

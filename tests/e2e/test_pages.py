@@ -24,12 +24,11 @@ def accessible(page: Page) -> None:
 
 
 FITS = "() => document.documentElement.scrollWidth <= document.documentElement.clientWidth"
-"""Whether nothing sticks out sideways; a chart takes a frame to follow a new width."""
 
 
-def fits(page: Page) -> bool:
-    """Whether nothing sticks out sideways."""
-    return bool(page.evaluate(FITS))
+def fits(page: Page) -> None:
+    """Wait until nothing sticks out sideways: a chart takes a frame to follow a new width."""
+    page.wait_for_function(FITS)
 
 
 def tab_to(page: Page, selector: str) -> None:
@@ -144,7 +143,7 @@ def test_a_phone_shows_everything_within_its_width(page: Page, opener: Opener, s
     page.set_viewport_size({"width": PHONE["width"], "height": PHONE["height"]})
     trainer = opener(preset="stubborn")
     proposal = trainer.drawn()
-    assert fits(page)
+    fits(page)
     for name in ("good", "neutral", "bad", "halt"):
         button = page.get_by_test_id(name)
         expect(button).to_be_in_viewport(ratio=1)
@@ -155,10 +154,10 @@ def test_a_phone_shows_everything_within_its_width(page: Page, opener: Opener, s
     trainer.drawn(proposal)
     page.goto(service.url)
     expect(page.get_by_test_id("experiment").first).to_be_visible()
-    assert fits(page)
+    fits(page)
     page.get_by_test_id("new").click()
     expect(page.get_by_test_id("create")).to_be_visible()
-    assert fits(page)
+    fits(page)
 
 
 @pytest.mark.parametrize("colours", ["light", "dark"])

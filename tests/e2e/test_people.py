@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, expect
 
-from tests.e2e.test_pages import FITS, accessible
+from tests.e2e.test_pages import accessible, fits
 from tests.e2e.trainer import START_MS
 from tests.live import ROOT, LiveService, free_port, wait_for
 
@@ -138,7 +138,7 @@ def test_somebody_is_invited_judges_and_is_let_out(
     ann.set_viewport_size({"width": 390, "height": 844})
     ann.goto(link)
     expect(ann.get_by_label("Your name")).to_be_visible()
-    assert ann.evaluate(FITS)
+    fits(ann)
     accessible(ann)
     ann.get_by_label("Your name").fill("Ann")
     ann.get_by_test_id("sign-in").click()

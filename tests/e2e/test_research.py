@@ -9,7 +9,7 @@ from typing import Any
 
 from playwright.sync_api import Page, expect
 
-from tests.e2e.test_pages import FITS, PHONE, accessible
+from tests.e2e.test_pages import PHONE, accessible, fits
 from tests.e2e.trainer import START_MS
 from tests.live import LiveService, wait_for
 
@@ -79,7 +79,7 @@ def test_experiments_are_found_tagged_cloned_and_compared(page: Page, service: L
     accessible(page)
 
     page.set_viewport_size({"width": PHONE["width"], "height": PHONE["height"]})
-    page.wait_for_function(FITS)
+    fits(page)
     page.goto(f"{service.url}/?text=sought")
     page.get_by_test_id("clone").first.click()
     page.get_by_test_id("create").click()
@@ -193,7 +193,7 @@ def test_the_past_is_looked_through_and_replayed_by_keyboard_while_nothing_runs(
     expect(replay).to_have_attribute("data-at", "0")
     accessible(page)
     page.set_viewport_size({"width": PHONE["width"], "height": PHONE["height"]})
-    page.wait_for_function(FITS)
+    fits(page)
     page.goto(f"{service.url}/experiments/{experiment}/episodes/999")
     expect(page.get_by_role("alert")).to_contain_text("999")
 
@@ -219,7 +219,7 @@ def test_what_the_critic_thinks_is_drawn_beside_what_was_said(page: Page, servic
     expect(page.get_by_test_id("critic-read")).to_contain_text("x 0.")
     accessible(page)
     page.set_viewport_size({"width": PHONE["width"], "height": PHONE["height"]})
-    page.wait_for_function(FITS)
+    fits(page)
     quiet = service.experiment(adapter="kinematic", name="Silent", teacher="synthetic")
     service.post(f"/experiments/{quiet}/start")
     judged_until(service, quiet, 2)

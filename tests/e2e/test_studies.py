@@ -6,7 +6,7 @@ from playwright.sync_api import Page, expect
 
 from agent.study.figures import write_figures
 from agent.study.results import write_results
-from tests.e2e.test_pages import FITS, PHONE, accessible
+from tests.e2e.test_pages import PHONE, accessible, fits
 from tests.live import LiveService
 from tests.server.study_folder import begun, evaluate, plan
 
@@ -47,7 +47,7 @@ def test_a_study_is_watched_live(page: Page, own_service: LiveService) -> None:
     assert download.value.suggested_filename == "first_subgoal.svg"
     accessible(page)
     page.set_viewport_size({"width": PHONE["width"], "height": PHONE["height"]})
-    page.wait_for_function(FITS)
+    fits(page)
 
     page.goto(f"{own_service.url}/studies/other")
     expect(page.get_by_role("alert")).to_contain_text("other")

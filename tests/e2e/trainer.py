@@ -18,6 +18,15 @@ START_MS = 60_000
 ONE_KEPT = re.compile(r"1( click)? kept")
 """What the connection says while a click waits for it; short on a narrow screen."""
 
+KEEP_NOTICES = """
+window.told = [];
+new MutationObserver(() => {
+  for (const notice of document.querySelectorAll('.notice p'))
+    if (!window.told.includes(notice.textContent)) window.told.push(notice.textContent);
+}).observe(document, {childList: true, subtree: true});
+"""
+"""Keeps what notices have said on this page since it was loaded: they go by themselves."""
+
 KEYS = {-1: ("3", "ArrowLeft"), 0: ("2", "ArrowDown"), 1: ("1", "ArrowRight")}
 BUTTONS = {-1: "bad", 0: "neutral", 1: "good"}
 
@@ -37,6 +46,7 @@ class TrainerPage:
         self.connection = page.get_by_test_id("connection")
         self.notices = page.get_by_test_id("notices")
         page.on("websocket", self._listen)
+        page.add_init_script(KEEP_NOTICES)
 
     def _listen(self, socket: WebSocket) -> None:
         socket.on("framereceived", self._keep)
@@ -60,18 +70,22 @@ class TrainerPage:
         """Wait until the page has noticed that the connection is gone."""
         expect(self.connection).to_have_attribute("data-state", "lost", timeout=START_MS)
 
+    def told(self, text: str) -> None:
+        """Wait until a notice has said this, whether it is still there or not."""
+        script = "text => window.told.some(said => said.includes(text))"
+        self.page.wait_for_function(script, arg=text, timeout=START_MS)
+
     def test_id(self, name: str) -> Locator:
         """An element by its test id."""
         return self.page.get_by_test_id(name)
 
     def drawn(self, after: int | None = None, *, timeout: float = START_MS) -> int:
         """Wait until a proposal newer than `after` is drawn with its pictures; its id."""
-        self.page.wait_for_function(
-            "after => Number(document.querySelector('[data-testid=views]')?.dataset.proposalId ?? 0) > after",
-            arg=after or 0,
-            timeout=timeout,
-        )
-        return int(self.views.get_attribute("data-proposal-id") or 0)
+        script = """after => {
+          const id = Number(document.querySelector('[data-testid=views]')?.dataset.proposalId ?? 0);
+          return id > after ? id : null;
+        }"""
+        return int(self.page.wait_for_function(script, arg=after or 0, timeout=timeout).json_value())
 
     def looked_at(self) -> None:
         """Wait until the drawn proposal was on the screen long enough for a press to count."""
