@@ -295,10 +295,10 @@ class Tended(Protocol):
     """What a real robot's adapter has beside `Adapter`: what only an operator asks for, and a look at any time."""
 
     def home(self, *, should_stop: StopCheck, on_step: StepHook) -> bool:
-        """Bring the robot slowly out of the way; whether it arrived there.
+        """Bring the robot slowly out of the way; False if it was stopped. It pushes against nothing.
 
         Raises:
-            Unavailable: it can't be used now.
+            Unavailable: it can't be used now, or it broke off on the way, and why.
         """
 
     def recover(self) -> None:

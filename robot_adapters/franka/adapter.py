@@ -7,8 +7,6 @@ import time
 import uuid
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from importlib.metadata import entry_points
-from typing import cast
 
 import numpy as np
 
@@ -34,7 +32,7 @@ from robot_adapters.franka import FrankaSettings, connecting
 from robot_adapters.franka.arm import CONTROL_HZ
 from robot_adapters.franka.backend import WORDS, ArmFault, Mode
 from robot_adapters.franka.dead_man import DeadMan
-from robot_adapters.franka.eyes import Calibrated, EyesFactory, Hand, Sight, must_be_known, must_be_unmoved
+from robot_adapters.franka.eyes import Calibrated, Hand, Sight, find_eyes, must_be_known, must_be_unmoved
 from robot_adapters.franka.faults import ended_by, violations_of
 from robot_adapters.franka.holding import gripped, holds
 from robot_adapters.franka.limits import Refused
@@ -46,12 +44,12 @@ from robot_adapters.tasks.episode import Episode
 
 log = logging.getLogger(__name__)
 
-EYES = "seed.eyes"
 LIFTING = ("pick", "place", "push")
 """Skills that end by a lift; on a real robot it leads further up than in simulation, where nothing hides anything."""
 OUT_OF_THE_WAY = 0.28
 """m above the table for the grip site: at the 0.17 m of a lift, the hand (204 mm wide) hides a block that it has just
 put on another from cameras that look down at 48 degrees. Seen in renders."""
+HOME_REMEDY = "look at what is in its way and take that away, then bring it home again"
 JOINT_LIMITS = (
     (-2.7437, 2.7437), (-1.7837, 1.7837), (-2.9007, 2.9007), (-3.0421, -0.1518),
     (-2.8065, 2.8065), (0.5445, 4.5169), (-3.0159, 3.0159),
@@ -152,10 +150,10 @@ class FrankaAdapter:
         return SkillResult(end, steps, self._task.success(scene), (*broken, *found))
 
     def home(self, *, should_stop: StopCheck, on_step: StepHook) -> bool:
-        """Slowly to where the arm is out of the cameras' way, because an operator asks; whether it is there.
+        """Slowly to where the arm is out of the cameras' way, because an operator asks; False if it was stopped.
 
         Raises:
-            Unavailable: the arm can't be used now.
+            Unavailable: the arm can't be used now, or it broke off on the way; it stands still then.
         """
         self._must_be_well()
         self._observation = self._sight = None
@@ -165,7 +163,10 @@ class FrankaAdapter:
             return (EndReason.ARRIVED if self.arm.home() else EndReason.STOPPED), 0
 
         end, _, broken = self._run(should_stop, on_step, go)
-        return end is EndReason.ARRIVED and not broken
+        why = self.arm.overload() or "; ".join(violation.detail for violation in broken)
+        if why:
+            raise Unavailable(f"the arm broke off on its way home: {why}", remedy=HOME_REMEDY)
+        return end is EndReason.ARRIVED
 
     def recover(self) -> None:
         """Clear a reflex, because an operator says so.
@@ -378,16 +379,3 @@ class FrankaAdapter:
             return present
         nearest = min(range(len(objects)), key=lambda i: float(np.linalg.norm(objects[i] - target)))
         return clear_yaw(target, objects[:nearest] + objects[nearest + 1 :])
-
-
-def find_eyes(name: str) -> EyesFactory:
-    """What sees, by its name among the entry points.
-
-    Raises:
-        Unavailable: none is installed under this name.
-    """
-    points = {point.name: point for point in entry_points(group=EYES)}
-    if name not in points:
-        known = ", ".join(sorted(points)) or "none"
-        raise Unavailable(f"nothing called {name!r} sees", remedy=f"installed are: {known}")
-    return cast("EyesFactory", points[name].load())

@@ -26,6 +26,8 @@ HOMING_PATIENCE = 30.0
 """s of the robot's clock for the way to the joints of home."""
 HOMING_LIFT = 0.15
 """m above the table from which the way home is free."""
+HOMING_SPEED = 0.05
+"""m/s of the way up to there: nobody has judged it, and what is in the hand or on it may catch."""
 RISING_LIMIT = 200
 """Set-points, 10 s at 20 Hz, for the way up from the table."""
 HOME_NEAR = 0.02
@@ -180,14 +182,34 @@ class FrankaArm:
         return False
 
     def home(self) -> bool:
-        """Straight up where it is low, then slowly to the joints of home; False if it was stopped on the way."""
+        """Slowly straight up where it is low, then to the joints of home.
+
+        False if it was stopped on the way, or pushes against something, which `overload` tells: it stands still then.
+        Only the way up is held to the workspace: on the way of the joints nobody calculates where the hand passes.
+
+        Raises:
+            ArmFault, Refused: as `step`; or it doesn't arrive.
+        """
         state = self.look()
         self._must_be_well(state)
-        if not self.rise(HOMING_LIFT):
-            return False
+        self.end()
+        usual = self._limits
+        self._limits = replace(usual, speed=min(usual.speed, HOMING_SPEED))
+        try:
+            if not self.rise(HOMING_LIFT):
+                return False
+        finally:
+            self._limits = usual
         self.end()
         self.backend.start_joints(READY)
-        self._wait(lambda _: self.backend.joints_arrived(), HOMING_PATIENCE, "the arm doesn't come home")
+        self._wait(
+            lambda _: self._overload is not None or self.backend.joints_arrived(),
+            HOMING_PATIENCE,
+            "the arm doesn't come home",
+        )
+        if self._overload is not None:
+            self.halt()
+            return False
         return not self.should_stop() and bool((np.abs(self._state.joints - READY) < HOME_NEAR).all())
 
     def _controlling(self) -> Pacer:

@@ -7,13 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Protocol, runtime_checkable
+from importlib.metadata import entry_points
+from typing import Protocol, cast, runtime_checkable
 
 import numpy as np
 
 from robot_adapters.base import Array, CameraCalibration, CameraFrame, Unavailable
 from robot_adapters.guiding import Guide
 
+EYES = "seed.eyes"
 STIRRED = 0.010
 """m by which nothing may have moved between the picture that was judged and the motion: fingers forgive 12 mm."""
 
@@ -131,3 +133,16 @@ class EyesFactory(Protocol):
         Raises:
             Unavailable: a camera or its calibration is missing; the remedy says what to do.
         """
+
+
+def find_eyes(name: str) -> EyesFactory:
+    """What sees, by its name among the entry points.
+
+    Raises:
+        Unavailable: none is installed under this name.
+    """
+    points = {point.name: point for point in entry_points(group=EYES)}
+    if name not in points:
+        known = ", ".join(sorted(points)) or "none"
+        raise Unavailable(f"nothing called {name!r} sees", remedy=f"installed are: {known}")
+    return cast("EyesFactory", points[name].load())

@@ -18,6 +18,7 @@ from robot_adapters.franka.backend import ArmFault, Mode
 from tests.live import wait_for
 from tests.robot_adapters.franka.conftest import APART, TABLE, Build, never, nothing
 from tests.simulators.franka import SimulatedFranka
+from tests.simulators.still_arm import HOME
 
 pytestmark = pytest.mark.simulated_arm
 
@@ -133,6 +134,31 @@ def test_a_stop_during_a_motion_or_a_grasp_is_heeded(backend: str, build: Build,
         assert not result.violations
         assert arm.truth()["mode"] == "kIdle"
         arm.tell(heal=True, place=APART)
+
+
+@both
+def test_the_way_home_ends_where_the_arm_pushes_before_it_stops_itself(
+    backend: str, build: Build, arm: SimulatedFranka
+) -> None:
+    adapter = build(backend=backend)
+    adapter.reset()
+    assert adapter.execute(AWAY, should_stop=never, on_step=nothing).end is EndReason.ARRIVED
+    began, pushes = adapter.arm.look().position, []
+
+    def lean() -> None:
+        pushes.append(adapter.arm.state.newtons)
+        if max(pushes) < 1.0 and np.linalg.norm(adapter.arm.state.position - began) > 0.03:
+            arm.tell(push=[0.0, 32.0, 0.0, 0.5])
+
+    with pytest.raises(Unavailable, match=r"the hand pushes with \d+ N") as broken:
+        adapter.home(should_stop=never, on_step=lean)
+    assert "in its way" in broken.value.remedy
+    truth = arm.truth()
+    assert truth["mode"] == "kIdle"
+    assert adapter.arm.look().mode is Mode.IDLE
+    assert np.linalg.norm(np.subtract(truth["tip"], HOME)) > 0.1
+    wait_for(lambda: np.linalg.norm(arm.truth()["force"]) < 1.0, "nobody to push any more")
+    assert adapter.home(should_stop=never, on_step=nothing)
 
 
 @both
