@@ -62,6 +62,7 @@ class Robot:
         self._attended: float | None = None
         self._told: dict[str, Any] | None = None
         self._told_at = 0.0
+        self._looked_at = 0.0
         self._guide: Guide | None = None
         self._guide_worth: dict[str, Any] | None = None
 
@@ -179,7 +180,7 @@ class Robot:
         """Bring a real arm out of the way: the one motion that an operator asks for directly."""
         adapter = self._tended()
         self._must_be_armed()
-        arrived = adapter.home(should_stop=self._must_stop, on_step=self.refresh)
+        arrived = adapter.home(should_stop=self._must_stop, on_step=self._on_the_way)
         return {"arrived": arrived, "telemetry": telemetry_of(self.adapter)}
 
     def recover(self) -> dict[str, Any]:
@@ -216,11 +217,8 @@ class Robot:
         return {"step": _looked(self._guide.look(take=False)), "outcome": self._guide_worth}
 
     def refresh(self) -> None:
-        """Tell how a real robot is while nothing is asked of it: at once where that has changed."""
-        if not isinstance(self._adapter, Tended):
-            return
-        now = time.monotonic()
-        if now - self._told_at < REFRESH:
+        """Look at a real robot while nothing is asked of it, and tell how it is: at once where that has changed."""
+        if not isinstance(self._adapter, Tended) or not self._is_due():
             return
         self._adapter.refresh()
         told = telemetry_of(self._adapter)
@@ -228,9 +226,8 @@ class Robot:
             log.error("the robot is being driven although it must stand still: it is stopped")
             self._adapter.halt()
         changed = told is not None and (self._told is None or told["mode"] != self._told["mode"])
-        if changed or now - self._told_at > 1.0:
-            self._told, self._told_at = told, now
-            self._frames.send({"telemetry": told}, b"")
+        if changed or time.monotonic() - self._told_at > 1.0:
+            self._tell(told)
 
     def rearm(self, *, upto: int) -> dict[str, Any]:
         """Lift the stops up to number `upto`."""
@@ -245,6 +242,22 @@ class Robot:
     def _must_stop(self) -> bool:
         """Whether a motion must end: by a stop, or because nobody attends a real robot any more."""
         return self._latch.stopped() or (self._attended is not None and self._latch.forsaken(self._attended))
+
+    def _on_the_way(self) -> None:
+        """Tell how the arm is while it goes home, by what the motion sees: another look would keep a stop waiting."""
+        if self._is_due():
+            self._tell(telemetry_of(self.adapter))
+
+    def _is_due(self) -> bool:
+        """Whether it is time to look, or to tell, again; if so, the time counts from now."""
+        now = time.monotonic()
+        due = now - self._looked_at >= REFRESH
+        self._looked_at = now if due else self._looked_at
+        return due
+
+    def _tell(self, told: dict[str, Any] | None) -> None:
+        self._told, self._told_at = told, time.monotonic()
+        self._frames.send({"telemetry": told}, b"")
 
     def _guided(self) -> Guide:
         if self._guide is None:
