@@ -9,6 +9,7 @@ import socket
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from types import FrameType
 
 import uvicorn
 
@@ -41,6 +42,7 @@ async def run_server(settings: Settings, *, announce: Callable[[str], None]) -> 
             server = Server(config(create_app(settings, service), settings))
             address = _url(settings.host, listener.getsockname()[1]) + settings.root_path
             server.on_ready = lambda: announce(f"SEED is ready: {address}")
+            server.on_end = service.hub.brake
             if settings.login:
                 await _let_the_owner_in(service, settings, address, announce)
             await server.serve(sockets=[listener])
@@ -92,6 +94,13 @@ class Server(uvicorn.Server):
     """Uvicorn, but a signal ends it in order: the original raises it again, which would kill us before clean-up."""
 
     on_ready: Callable[[], None] = staticmethod(lambda: None)
+    on_end: Callable[[], None] = staticmethod(lambda: None)
+    """Called when a signal comes, before requests get their grace."""
+
+    def handle_exit(self, sig: int, frame: FrameType | None) -> None:
+        """End, but see to what can't wait first."""
+        self.on_end()
+        super().handle_exit(sig, frame)
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         """Start to listen, then say so."""

@@ -18,6 +18,7 @@ from robot_adapters.base import SkillCall
 from server.attendance import Attendance
 from server.crew_values import Idea, Saved
 from server.learning import checkpoint_folder, checkpoint_name, checkpoint_path, configuration
+from server.messages import RobotTold
 from server.post import DEATH_WINDOW, QUICK, OnChange, Post
 from server.recollection import Recollection, wire
 from server.robots import OnFrame, OnTold, Robot, Stops
@@ -140,6 +141,12 @@ class Crew:
         """Forget earlier deaths: someone has looked at the failure and resumes."""
         for post in self._posts.values():
             post.forgive()
+
+    @property
+    def told(self) -> list[RobotTold]:
+        """What each robot told of itself last, of those that have."""
+        telling = ((robot.index, robot.telemetry) for robot in self.robots)
+        return [RobotTold(robot=index, telemetry=told) for index, told in telling if told is not None]
 
     @property
     def operator_present(self) -> bool:

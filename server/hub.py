@@ -14,7 +14,7 @@ from server import auto_approval, catalogue, tending
 from server.desk import Desk
 from server.guiding import guide, under_way
 from server.lifecycle import MOVING
-from server.messages import EvaluationChanged, ExecutionEnded, ExperimentChanged, RobotTold, Snapshot
+from server.messages import EvaluationChanged, ExecutionEnded, ExperimentChanged, Snapshot
 from server.presence import Presence
 from server.principal import Principal, acting
 from server.publisher import Publisher
@@ -62,8 +62,14 @@ class Hub:
         """Clear up what an earlier process left half-done. Nothing moves until someone resumes."""
         await self.store.recover()
 
+    def brake(self) -> None:
+        """Have every real robot stand still, because the service ends: at once, before anything is waited for."""
+        for runner in self._runners.values():
+            runner.brake()
+
     async def close(self) -> None:
         """Pause what runs and end all workers, within about two seconds."""
+        self.brake()
         closing = (self._close(experiment_id, runner) for experiment_id, runner in self._runners.items())
         outcomes = await asyncio.gather(*closing, return_exceptions=True)
         self._runners.clear()
@@ -92,6 +98,7 @@ class Hub:
         )
         seating = self.seats.of(experiment_id)
         finishing = None if trainer is None else seating.finishing(trainer)
+        runner = self._runners.get(experiment_id)
         return Snapshot(
             experiment=experiment,
             proposal=proposals[0] if proposals else None,
@@ -101,11 +108,7 @@ class Hub:
             executions=executions,
             undoable=undoable,
             judges=seating.judges,
-            robots=[
-                RobotTold(robot=robot.index, telemetry=robot.telemetry)
-                for robot in (self._runners[experiment_id].crew.robots if experiment_id in self._runners else ())
-                if robot.telemetry is not None
-            ],
+            robots=[] if runner is None else runner.crew.told,
             operator=self._attending(experiment_id),
             server_time=datetime.now(UTC),
             boot_id=boot_id,

@@ -146,6 +146,7 @@ class Robot:
 
     async def _ask(self, command: str, most: float = math.inf, **arguments: Any) -> dict[str, Any]:
         deadline = min(most, self._settings.robot_deadline)
+        self._tell_whether_attended()  # before the command: what it said last may no longer be so
         keeping = asyncio.create_task(self._keep_alive(), name=f"attend {self.post.name}") if self._attended else None
         try:
             return await self.post.worker.call(command, deadline=deadline, **arguments)
@@ -156,11 +157,12 @@ class Robot:
     async def _keep_alive(self) -> None:
         """Say whether the robot is attended, again and again: silence means that it isn't, but takes its time."""
         while self._attended is not None:
-            if self._attended():
-                self.post.keep_alive()
-            else:
-                self.post.forsake()
+            self._tell_whether_attended()
             await asyncio.sleep(KEEP_ALIVE)
+
+    def _tell_whether_attended(self) -> None:
+        if self._attended is not None:
+            (self.post.keep_alive if self._attended() else self.post.forsake)()
 
     def _take_frame(self, header: bytes, jpeg: bytes) -> None:
         if not jpeg:

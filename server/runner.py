@@ -166,8 +166,14 @@ class Runner:
         self.leave()
         for station in self.stations:
             station.forget()
-        if moving := [station for station in self.stations if station.moving]:
-            asyncio.get_running_loop().call_later(STOP_GRACE, self._insist, self._course.task, moving)
+        moving = [(station, station.homing or self._course.task) for station in self.stations if station.moving]
+        if moving:
+            asyncio.get_running_loop().call_later(STOP_GRACE, self._insist, moving)
+
+    def brake(self) -> None:
+        """The service is about to end: a real robot stands still from now on, whatever its answers still wait for."""
+        if self.attendance is not None:
+            self.stop()
 
     async def rearm(self, upto: int) -> None:
         """Lift the stops up to number `upto`; nothing moves by that."""
@@ -363,10 +369,10 @@ class Runner:
 
         self._soon(store())
 
-    def _insist(self, task: asyncio.Task[None] | None, moving: Sequence[Station]) -> None:
-        """The emergency stop's last word: a robot worker that still moves is killed."""
-        for station in moving:
-            if task is not None and not task.done() and station.moving:
+    def _insist(self, moving: Sequence[tuple[Station, asyncio.Task[Any] | None]]) -> None:
+        """The emergency stop's last word: a robot worker that still moves, for what it moved for then, is killed."""
+        for station, work in moving:
+            if work is not None and not work.done() and station.moving:
                 name = station.robot.post.name
                 log.error("experiment %d: the %s worker did not stop in %g s", self.experiment.id, name, STOP_GRACE)
                 station.robot.post.kill()

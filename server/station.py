@@ -89,6 +89,8 @@ class Station:
         """Seed of an episode whose start is still to be made."""
         self._seen: Seen | None = None
         self._reset_wanted = False
+        self.homing: asyncio.Task[bool] | None = None
+        """A real arm's way home, while it is on it."""
 
     @property
     def experiment(self) -> Experiment:
@@ -105,7 +107,8 @@ class Station:
     @property
     def moving(self) -> bool:
         """Whether the robot moves, as far as this process knows."""
-        return self._standing.phase_of(self.robot.index) in (Phase.EXECUTING, Phase.EVALUATING)
+        phase = self._standing.phase_of(self.robot.index)
+        return self.homing is not None or phase in (Phase.EXECUTING, Phase.EVALUATING)
 
     @property
     def resting(self) -> Robot | None:
@@ -231,6 +234,19 @@ class Station:
             await self._shared.ask_operator("pause", [f"the episode ended ({outcome}): {by_hand}"])
 
     # --- around them --------------------------------------------------------------------------------------------
+
+    async def home(self) -> bool:
+        """Bring a real arm out of the way; whether it arrived. To an emergency stop it is a motion like any other.
+
+        Raises:
+            CommandFailed: it can't, or it broke off on the way. WorkerDied: its worker is gone.
+        """
+        self.forget()
+        self.homing = asyncio.create_task(self.robot.home(), name=f"bring {self.robot.post.name} home")
+        try:
+            return await self.homing
+        finally:
+            self.homing = None
 
     async def want_reset(self) -> None:
         """Begin a new episode: now if a proposal waits, else as soon as the skill has ended, or at resume."""

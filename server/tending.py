@@ -90,7 +90,10 @@ async def tend(runner: Runner, store: Store, what: Order, who: Principal) -> Non
     station = runner.stations[0]
     await station.mend()
     await station.robot.post.fill()
-    await (station.robot.home() if what == "home" else station.robot.recover())
-    station.forget()
-    done = "robot_homed" if what == "home" else "robot_recovered"
-    await store.add_event(experiment.id, done, {"operator": who.name})
+    if what == "home":
+        arrived = await station.home()
+        await store.add_event(experiment.id, "robot_homed", {"operator": who.name, "arrived": arrived})
+    else:
+        await station.robot.recover()
+        station.forget()
+        await store.add_event(experiment.id, "robot_recovered", {"operator": who.name})

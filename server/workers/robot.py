@@ -6,7 +6,6 @@ own, which is looked at between any two set-points: it never waits behind a skil
 
 from __future__ import annotations
 
-import base64
 import contextlib
 import dataclasses
 import json
@@ -29,9 +28,10 @@ from robot_adapters.base import (
     TellsTelemetry,
     Tended,
 )
-from robot_adapters.guiding import CalibratesCameras, Guide, GuideLook, GuideResult
+from robot_adapters.guiding import CalibratesCameras, Guide
 from server.images import Images
 from server.workers.channel import FrameSender, Pipes, Refusal, StopLatch, answer, open_pipes
+from server.workers.guiding import looked, worth
 
 log = logging.getLogger(__name__)
 
@@ -193,28 +193,28 @@ class Robot:
         if not isinstance(self.adapter, CalibratesCameras):
             raise Refusal("this robot's cameras aren't calibrated by hand", remedy="see its adapter's documentation")
         self._guide, self._guide_worth = self.adapter.guide(square=square, wanted=wanted), None
-        return _looked(self._guide.look(take=False))
+        return looked(self._guide.look(take=False))
 
     def guide_look(self, *, take: bool) -> dict[str, Any]:
         """See the board, and keep the pose if asked to."""
-        return _looked(self._guided().look(take=take))
+        return looked(self._guided().look(take=take))
 
     def guide_solve(self) -> dict[str, Any]:
         """Calculate where the cameras are."""
-        self._guide_worth = _result(self._guided().solve())
+        self._guide_worth = worth(self._guided().solve())
         return self._guide_worth
 
     def guide_store(self) -> dict[str, Any]:
         """Keep that, and be done."""
         result = self._guided().store()
         self._guide = self._guide_worth = None
-        return _result(result)
+        return worth(result)
 
     def guide_state(self) -> dict[str, Any]:
         """What is under way, if anything is: the poses are kept here, not in a page."""
         if self._guide is None:
             return {}
-        return {"step": _looked(self._guide.look(take=False)), "outcome": self._guide_worth}
+        return {"step": looked(self._guide.look(take=False)), "outcome": self._guide_worth}
 
     def refresh(self) -> None:
         """Look at a real robot while nothing is asked of it, and tell how it is: at once where that has changed."""
@@ -344,28 +344,6 @@ def _broken_off(error: AdapterError, steps: int) -> SkillResult:
     """What came of a motion that an error of the adapter ended in its middle: somebody has to look."""
     needs = SafetyViolation("manual_reset", f"the motion broke off: {error}. {error.remedy}")
     return SkillResult(EndReason.STALLED, steps, success=False, violations=(needs,))
-
-
-def _looked(look: GuideLook) -> dict[str, Any]:
-    cameras = [
-        dataclasses.asdict(seen) | {"jpeg": base64.b64encode(seen.jpeg).decode("ascii")} for seen in look.cameras
-    ]
-    return dataclasses.asdict(look) | {"cameras": cameras}
-
-
-def _result(result: GuideResult) -> dict[str, Any]:
-    cameras = [
-        {
-            "camera": found.camera,
-            "error_mm": round(1000 * found.error, 2),
-            "poses": found.poses,
-            "left_out": found.left_out,
-            "good": found.good,
-        }
-        for found in result.cameras
-    ]
-    apart = None if result.apart is None else round(1000 * result.apart, 2)
-    return {"cameras": cameras, "apart_mm": apart, "stored": result.stored}
 
 
 def telemetry_of(adapter: Adapter) -> dict[str, Any] | None:
