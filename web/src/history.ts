@@ -3,11 +3,16 @@ import type { Execution, Feedback, Proposal, StreamEvent } from "./wire";
 
 export const KEPT = 50;
 
-export interface Entry {
+interface Parts {
   proposal: Proposal;
   /** One's own click, as it counts now. */
   own: Feedback | null;
   execution: Execution | null;
+}
+
+export interface Entry extends Parts {
+  /** What was heard of it since the newest snapshot; anything else may have changed while nothing was heard. */
+  heard: readonly (keyof Parts)[];
 }
 
 /** Newest first. */
@@ -36,7 +41,7 @@ export function lastMotion(history: History, robot: number): Entry | null {
 
 export const shown = (history: History, filter: Filter): History => history.filter(PASSES[filter]);
 
-/** What REST told, under what the stream has told meanwhile. */
+/** What REST told since the newest snapshot, under what the stream has told meanwhile. */
 export function loaded(
   history: History,
   proposals: Proposal[],
@@ -49,27 +54,25 @@ export function loaded(
   );
   const ran = new Map(executions.map((each) => [each.proposal_id, each]));
   const known = new Map(history.map((entry) => [entry.proposal.id, entry]));
-  const all = [...proposals, ...history.map(({ proposal }) => proposal)].filter(
-    ({ purpose }) => purpose === "training",
-  );
-  const newest = new Map(all.map((proposal) => [proposal.id, proposal]));
-  return [...newest.values()]
-    .sort((one, other) => other.id - one.id)
-    .slice(0, KEPT)
-    .map((proposal) => {
-      const entry = known.get(proposal.id);
-      return {
-        proposal: entry?.proposal ?? proposal,
-        own: entry?.own ?? own.get(proposal.id) ?? null,
-        execution: entry?.execution ?? ran.get(proposal.id) ?? null,
-      };
-    });
+  const training = proposals.filter(({ purpose }) => purpose === "training");
+  const told = training.map((proposal): Entry => {
+    const entry = known.get(proposal.id);
+    const heard = entry?.heard ?? [];
+    const execution = ran.get(proposal.id) ?? entry?.execution ?? null; // none is ever taken back
+    const rest = { proposal, own: own.get(proposal.id) ?? null, execution, heard };
+    return { ...rest, ...Object.fromEntries(heard.map((part) => [part, entry?.[part]])) };
+  });
+  const newest = new Map([...history, ...told].map((entry) => [entry.proposal.id, entry]));
+  return newestFirst([...newest.values()]);
 }
 
 export function remember(history: History, event: StreamEvent, me: string): History {
   switch (event.type) {
     case "snapshot":
-      return event.proposals.reduce(withProposal, history);
+      return event.proposals.reduce(
+        withProposal,
+        history.map((entry) => ({ ...entry, heard: [] })),
+      );
     case "proposal_opened":
     case "proposal_closed":
       return withProposal(history, event.proposal);
@@ -94,8 +97,11 @@ function withProposal(history: History, proposal: Proposal): History {
   if (proposal.purpose !== "training") return history;
   if (history.some((entry) => entry.proposal.id === proposal.id))
     return with_(history, proposal.id, { proposal });
-  const entry: Entry = { proposal, own: null, execution: null };
-  return [entry, ...history].sort((one, other) => other.proposal.id - one.proposal.id).slice(0, KEPT);
+  return newestFirst([{ proposal, own: null, execution: null, heard: ["proposal"] }, ...history]);
+}
+
+function newestFirst(entries: Entry[]): History {
+  return entries.sort((one, other) => other.proposal.id - one.proposal.id).slice(0, KEPT);
 }
 
 /** One that was taken back, or came too late, is none. */
@@ -107,9 +113,10 @@ export function withExecution(history: History, execution: Execution): History {
   return with_(history, execution.proposal_id, { execution });
 }
 
-function with_(history: History, proposalId: number, change: Partial<Entry>): History {
+function with_(history: History, proposalId: number, change: Partial<Parts>): History {
   const at = history.findIndex(({ proposal }) => proposal.id === proposalId);
   const entry = history[at];
   if (!entry) return history;
-  return [...history.slice(0, at), { ...entry, ...change }, ...history.slice(at + 1)];
+  const heard = [...new Set([...entry.heard, ...(Object.keys(change) as (keyof Parts)[])])];
+  return [...history.slice(0, at), { ...entry, ...change, heard }, ...history.slice(at + 1)];
 }

@@ -43,6 +43,7 @@ export class Session {
   private leasedAt = 0;
   private leaseSeconds = Number.POSITIVE_INFINITY;
   private given: number | null = null;
+  private pastAsked = 0;
 
   constructor(
     readonly id: number,
@@ -245,15 +246,24 @@ export class Session {
     if (connection !== "open") return;
     this.sendKept();
     if (this.stopWanted) this.tryHalt();
-    http.past(this.id, KEPT).then(
-      ([proposals, feedback, executions]) => this.dispatch({ kind: "past", proposals, feedback, executions }),
-      () => undefined, // the strip goes on from the stream
-    );
+    this.askPast();
     http.metrics(this.id).then(
       (points) => this.dispatch({ kind: "metrics", points }),
       () => undefined, // the curve goes on from the stream
     );
   };
+
+  /** An answer to an earlier connection's question may be older than this one's. */
+  private askPast(): void {
+    this.pastAsked += 1;
+    const asked = this.pastAsked;
+    http.past(this.id, KEPT).then(
+      ([proposals, feedback, executions]) => {
+        if (asked === this.pastAsked) this.dispatch({ kind: "past", proposals, feedback, executions });
+      },
+      () => undefined, // the strip goes on from the stream
+    );
+  }
 
   private onEvent = (event: StreamEvent): void => {
     if (event.type === "robot_told") this.telling.tell(event.robot, event.telemetry);
