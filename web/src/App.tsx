@@ -2,6 +2,7 @@
 
 import { type ComponentType, lazy, Suspense, useEffect } from "react";
 import { Header } from "./components/Header";
+import { StopsElsewhere } from "./components/StopsElsewhere";
 import { t, useLanguage } from "./i18n";
 import { LOGIN, may, ROLE } from "./me";
 import { ExperimentsPage } from "./pages/ExperimentsPage";
@@ -86,8 +87,11 @@ export function App() {
   const path = usePath();
   useLanguage(); // a new language draws everything below anew
   return (
-    <Suspense fallback={<Coming />}>
-      {ROLE === null || path === "/join" ? <SignInPage /> : <Page path={path} />}
-    </Suspense>
+    <>
+      <StopsElsewhere />
+      <Suspense fallback={<Coming />}>
+        {ROLE === null || path === "/join" ? <SignInPage /> : <Page path={path} />}
+      </Suspense>
+    </>
   );
 }

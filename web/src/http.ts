@@ -57,6 +57,7 @@ import type {
 } from "./wire";
 
 const ROOT = at("/api/v1");
+const HALT_PATIENCE_MS = 5000;
 
 export class ApiError extends Error {
   constructor(readonly problem: Problem) {
@@ -94,11 +95,12 @@ async function problemFrom(response: Response): Promise<Problem> {
   }
 }
 
-async function request<T>(method: string, path: string, body?: unknown): Promise<T> {
+async function request<T>(method: string, path: string, body?: unknown, within?: number): Promise<T> {
   let response: Response;
   try {
     response = await fetch(ROOT + path, {
       method,
+      signal: within === undefined ? null : AbortSignal.timeout(within),
       headers: body === undefined ? {} : { "Content-Type": "application/json" },
       body: body === undefined ? null : JSON.stringify(body),
     });
@@ -202,6 +204,10 @@ export const experiment = (id: number) => request<Experiment>("GET", `/experimen
 export const createExperiment = (body: ExperimentCreate) => request<Experiment>("POST", "/experiments", body);
 
 export const act = (id: number, verb: Verb) => request<Experiment>("POST", `/experiments/${id}/${verb}`);
+
+/** Ask for the emergency stop once, and wait no longer than this for an answer. */
+export const halt = (id: number) =>
+  request<Experiment>("POST", `/experiments/${id}/halt`, undefined, HALT_PATIENCE_MS);
 
 /** Somebody is at the real robot, for so many seconds unless it is said again. */
 export const attend = (id: number, operator: string, seconds: number) =>

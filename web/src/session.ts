@@ -10,23 +10,13 @@ import { ME, may, stillMe } from "./me";
 import { type Click, comesAgain, Outbox } from "./outbox";
 import { Recording } from "./recording";
 import { type Action, initial, reduce, type TrainerState } from "./state";
+import { type Follower, stops } from "./stops";
 import { type Connection, Stream, streamUrl } from "./stream";
 import { Telling } from "./telling";
 import { judgeOf } from "./together";
-import type {
-  AutoApproval,
-  Experiment,
-  Judge,
-  Problem,
-  Proposal,
-  Reported,
-  StreamEvent,
-  Value,
-  Verb,
-} from "./wire";
+import type { AutoApproval, Judge, Problem, Proposal, Reported, StreamEvent, Value, Verb } from "./wire";
 
 const RESEND_MS = 3000;
-const STOP_RETRY_MS = 1000;
 /** Signs of life are told at most so often: a lease lasts for several of them. */
 const LOOK_MS = 2000;
 
@@ -37,8 +27,7 @@ export class Session {
   private readonly stream: Stream;
   private readonly outbox: Outbox;
   private resend: ReturnType<typeof setTimeout> | undefined;
-  private stopRetry: ReturnType<typeof setTimeout> | undefined;
-  private stopWanted = false;
+  private unfollow: () => void = () => undefined;
   private lookedAt = Number.NEGATIVE_INFINITY;
   private leasedAt = 0;
   private leaseSeconds = Number.POSITIVE_INFINITY;
@@ -64,6 +53,8 @@ export class Session {
   open(): void {
     this.dispatch({ kind: "pending", clicks: this.outbox.all() });
     this.stream.start();
+    if (stops.wanted(this.id)) this.dispatch({ kind: "stopping", stopping: "asked" });
+    this.unfollow = stops.follow(this.id, this.stopping);
     http.newestEvaluation(this.id).then(
       (evaluation) => this.dispatch({ kind: "evaluation", evaluation }),
       () => undefined, // the stream tells of the next one
@@ -83,7 +74,7 @@ export class Session {
   close(): void {
     this.stream.stop();
     clearTimeout(this.resend);
-    clearTimeout(this.stopRetry);
+    this.unfollow();
   }
 
   /** Keep first, then send: a click survives a dead connection and a reload. */
@@ -138,15 +129,14 @@ export class Session {
       this.dispatch({ kind: "notice", tone: "warning", text: t("notice.notTakenBack") });
   }
 
-  /** By every way there is, and again until it is confirmed. */
+  /** By every way there is, and again until it is confirmed, also after this page is left. */
   halt(): void {
-    this.stopWanted = true;
     this.dispatch({ kind: "stopping", stopping: "asked" });
-    this.tryHalt();
+    stops.ask(this.id);
   }
 
   async act(verb: Verb): Promise<void> {
-    if (verb === "rearm") this.stopWanted = false;
+    if (verb === "rearm") stops.forget(this.id);
     await this.guard(http.act(this.id, verb));
   }
 
@@ -196,27 +186,15 @@ export class Session {
     this.dispatch({ kind: "notice", tone: "error", text: `${problem.detail} ${problem.remedy}` });
   };
 
-  private tryHalt(): void {
-    clearTimeout(this.stopRetry);
-    if (!this.stopWanted) return;
-    this.stream.send({ type: "halt", request_id: newId() });
-    http.act(this.id, "halt").then(
-      (experiment) => this.onHaltAnswer(experiment),
-      () =>
-        http.experiment(this.id).then(
-          (experiment) => this.onHaltAnswer(experiment),
-          () => this.onHaltAnswer(null),
-        ),
-    );
-  }
-
-  private onHaltAnswer(experiment: Experiment | null): void {
-    if (experiment) this.dispatch({ kind: "experiment", experiment });
-    if (experiment?.halted) this.stopWanted = false;
-    if (!this.stopWanted) return;
-    this.dispatch({ kind: "stopping", stopping: "unreachable" });
-    this.stopRetry = setTimeout(() => this.tryHalt(), STOP_RETRY_MS);
-  }
+  private readonly stopping: Follower = {
+    ask: () => void this.stream.send({ type: "halt", request_id: newId() }),
+    answered: (experiment) => this.dispatch({ kind: "experiment", experiment }),
+    unreachable: () => this.dispatch({ kind: "stopping", stopping: "unreachable" }),
+    refused: (problem) => {
+      this.dispatch({ kind: "stopping", stopping: "no" });
+      this.tellOf(problem);
+    },
+  };
 
   private send(click: Click): void {
     this.stream.send({ type: "feedback", ...click });
@@ -245,7 +223,7 @@ export class Session {
     this.dispatch({ kind: "connection", connection });
     if (connection !== "open") return;
     this.sendKept();
-    if (this.stopWanted) this.tryHalt();
+    stops.again(this.id);
     this.askPast();
     http.metrics(this.id).then(
       (points) => this.dispatch({ kind: "metrics", points }),
@@ -279,7 +257,7 @@ export class Session {
       this.leaseSeconds = event.experiment.together.lease_seconds;
     if (event.type === "snapshot" || event.type === "judges_changed") this.onJudges(event.judges);
     if ((event.type === "snapshot" || event.type === "experiment_changed") && event.experiment.halted)
-      this.stopWanted = false;
+      stops.confirm(this.id);
     this.dispatch({ kind: "event", event });
   };
 
