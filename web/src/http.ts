@@ -312,6 +312,9 @@ export const report = (executionId: number, reportId: string, outcome: Reported)
     trainer: ME,
   });
 
+export const feedback = (feedbackId: number) =>
+  request<Feedback>("GET", `/feedback/${feedbackId}?trainer=${encodeURIComponent(ME)}`);
+
 export const relabel = (feedbackId: number, clickId: string, value: Value) =>
   request<Feedback>("POST", `/feedback/${feedbackId}/relabels`, { click_id: clickId, value, trainer: ME });
 

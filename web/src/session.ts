@@ -20,6 +20,8 @@ const RESEND_MS = 3000;
 /** Signs of life are told at most so often: a lease lasts for several of them. */
 const LOOK_MS = 2000;
 
+type Refused = Extract<StreamEvent, { type: "refused" }>;
+
 export class Session {
   readonly frames = new FrameSink();
   readonly recording = new Recording();
@@ -33,6 +35,8 @@ export class Session {
   private leaseSeconds = Number.POSITIVE_INFINITY;
   private given: number | null = null;
   private pastAsked = 0;
+  /** By request, until it is answered; `again`: sent once more, since a dead connection may have swallowed it. */
+  private readonly undos = new Map<string, { feedbackId: number; again: boolean }>();
 
   constructor(
     readonly id: number,
@@ -125,8 +129,11 @@ export class Session {
   }
 
   undo(feedbackId: number): void {
-    if (!this.stream.send({ type: "undo", request_id: newId(), feedback_id: feedbackId }))
-      this.dispatch({ kind: "notice", tone: "warning", text: t("notice.notTakenBack") });
+    if ([...this.undos.values()].some((undo) => undo.feedbackId === feedbackId)) return;
+    const requestId = newId();
+    if (this.stream.send({ type: "undo", request_id: requestId, feedback_id: feedbackId }))
+      this.undos.set(requestId, { feedbackId, again: false });
+    else this.dispatch({ kind: "notice", tone: "warning", text: t("notice.notTakenBack") });
   }
 
   /** By every way there is, and again until it is confirmed, also after this page is left. */
@@ -222,6 +229,7 @@ export class Session {
   private onConnection = (connection: Connection): void => {
     this.dispatch({ kind: "connection", connection });
     if (connection !== "open") return;
+    this.undoAgain(); // before the clicks that were made after it
     this.sendKept();
     stops.again(this.id);
     this.askPast();
@@ -243,7 +251,28 @@ export class Session {
     );
   }
 
+  private undoAgain(): void {
+    for (const [requestId, undo] of this.undos) {
+      undo.again = true;
+      this.stream.send({ type: "undo", request_id: requestId, feedback_id: undo.feedbackId });
+    }
+  }
+
+  /** One that was sent twice is refused where the first had come through: then all is as it was wanted. */
+  private async undoRefused(feedbackId: number, refused: Refused): Promise<void> {
+    const feedback = await http.feedback(feedbackId).catch(() => null);
+    if (!feedback?.undone_at) this.dispatch({ kind: "event", event: refused });
+  }
+
   private onEvent = (event: StreamEvent): void => {
+    if ((event.type === "acknowledged" || event.type === "refused") && event.request_id) {
+      const undo = this.undos.get(event.request_id);
+      this.undos.delete(event.request_id);
+      if (event.type === "refused" && undo?.again) {
+        void this.undoRefused(undo.feedbackId, event);
+        return;
+      }
+    }
     if (event.type === "robot_told") this.telling.tell(event.robot, event.telemetry);
     if (event.type === "attendance_changed" || event.type === "snapshot")
       this.telling.attended(event.operator ?? null);

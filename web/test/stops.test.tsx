@@ -7,14 +7,7 @@ import type { Action } from "../src/state";
 import { stops } from "../src/stops";
 import { experiment } from "./messages";
 import { show } from "./render";
-
-/** A socket that never opens: the network is away. */
-class Unplugged {
-  static readonly OPEN = 1;
-  static readonly CONNECTING = 0;
-  readyState = Unplugged.CONNECTING;
-  close(): void {}
-}
+import { Socket } from "./socket";
 
 type Answer = () => Promise<Response>;
 
@@ -34,7 +27,7 @@ describe("an emergency stop", () => {
 
   beforeEach(() => {
     vi.useFakeTimers();
-    vi.stubGlobal("WebSocket", Unplugged);
+    vi.stubGlobal("WebSocket", Socket); // that never opens: the network is away
     answer = unreachable;
     asked = 0;
     vi.stubGlobal("fetch", (path: string) => {
