@@ -147,12 +147,23 @@ class Reads:
         return schemas.FeedbackPage(items=items, next_cursor=after)
 
     async def feedback_of_experiment(
-        self, experiment_id: int, cursor: str | None = None, limit: int = 50, *, told: bool = False
+        self,
+        experiment_id: int,
+        cursor: str | None = None,
+        limit: int = 50,
+        *,
+        trainer: str | None = None,
+        told_to: str | None = None,
     ) -> schemas.FeedbackPage:
-        """Clicks of an experiment, late and undone ones too, newest first. told: as `feedback_of_proposal`."""
+        """Clicks of an experiment, late and undone ones too, newest first.
+
+        trainer: only theirs. told_to: without what anybody else has said of a proposal that is still open; None: all.
+        """
         query = _CLICKS.where(models.FeedbackRow.experiment_id == experiment_id)
-        if told:
-            query = query.where(_told())
+        if trainer is not None:
+            query = query.where(_by(trainer))
+        if told_to is not None:
+            query = query.where(or_(_told(), _by(told_to)))
         items, after = await self._page(query, models.FeedbackRow.id, wire.feedback, cursor, limit, of=experiment_id)
         return schemas.FeedbackPage(items=items, next_cursor=after)
 
@@ -290,6 +301,12 @@ class Reads:
             return store_pages.page(session, query, key, convert, cursor=cursor, limit=limit, newest_first=newest_first)
 
         return await self._database.read(find)
+
+
+def _by(trainer: str) -> ColumnElement[bool]:
+    """A click of this trainer's."""
+    row = models.TrainerRow
+    return models.FeedbackRow.trainer_id == select(row.id).where(row.name == trainer).scalar_subquery()
 
 
 def _told() -> ColumnElement[bool]:

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Body, Query, Response
 
-from server.errors import late_feedback
+from server.errors import ServiceError, late_feedback
 from server.privacy import veiled
 from server.routes.dependencies import Cursor, Id, Limit, Running, Who, errors
 from server.schemas import Feedback, FeedbackCreate, FeedbackPage, FeedbackStatus
@@ -22,6 +22,11 @@ CORRECTION = {"bad after all": {"value": {"click_id": "77ab3f02-9c1d", "value": 
 Asker = Annotated[
     str | None,
     Query(max_length=64, description="who asks, where nobody signs in: another's click is nobody's to take or to see"),
+]
+
+Whose = Annotated[
+    str | None,
+    Query(min_length=1, max_length=64, description="only this trainer's; another's than one's own: operators only"),
 ]
 
 
@@ -62,10 +67,17 @@ async def list_feedback_of_proposal(
 
 @router.get("/experiments/{experiment_id}/feedback", responses=errors(404, 422))
 async def list_feedback(
-    service: Running, who: Who, experiment_id: Id, cursor: Cursor = None, limit: Limit = 50
+    service: Running, who: Who, experiment_id: Id, *, cursor: Cursor = None, limit: Limit = 50, trainer: Whose = None
 ) -> FeedbackPage:
-    """Feedback of an experiment, newest first, late and undone included; without votes on what is still open."""
-    return veiled(who, await service.store.feedback_of_experiment(experiment_id, cursor, limit, told=True))
+    """Feedback of an experiment, newest first, late and undone included; without others' votes on what is still open.
+
+    One trainer's alone with `trainer`: one's own, or anybody's where an operator asks.
+    """
+    if trainer is not None and who.speaking_for(trainer) != trainer:
+        raise ServiceError(403, f"what {trainer} said is told to operators", remedy=f"ask for your own, {who.name}'s")
+    told_to = (who.called(trainer) if trainer else who).name
+    found = await service.store.feedback_of_experiment(experiment_id, cursor, limit, trainer=trainer, told_to=told_to)
+    return veiled(who, found)
 
 
 @router.get("/feedback/{feedback_id}", responses=errors(404, 409, 422))

@@ -13,6 +13,7 @@ from server.privacy import SOMEBODY, Telling, veiled
 from server.schemas_quality import AgreementInfo
 from server.schemas_together import Judge
 from tests.server.serving import event
+from tests.server.test_errors import check_problem
 from tests.server.test_people import House, bearer, experiment, house
 
 HIDDEN = "Bob the trainer"
@@ -83,6 +84,34 @@ async def test_no_route_that_a_trainer_may_ask_tells_whose_click_it_was(tmp_path
             assert (figures["trainer"], figures["labels"]) == ("Ann", 0)
             for path in (f"{base}/quality", f"{base}/exports/feedback", "/api/v1/trainers", "/api/v1/audit"):
                 assert (await ann.get(path)).status_code == 403
+
+
+async def test_a_trainer_finds_their_own_labels_however_many_the_others_gave(tmp_path: Path) -> None:
+    async with house(tmp_path) as home:
+        here = await experiment(home)
+        await home.owner.patch(f"/api/v1/experiments/{here}", json={"aggregation": "unanimous"})
+        invitation = await home.invite(experiment_id=here, uses=2)
+        async with await home.enter(invitation, "Ann") as ann, await home.enter(invitation, HIDDEN) as bob:
+
+            async def labels(client: Any, trainer: str) -> list[tuple[int, str]]:
+                query = {"limit": 2, "trainer": trainer}
+                items = (await client.get(f"/api/v1/experiments/{here}/feedback", params=query)).json()["items"]
+                return [(each["proposal_id"], each["trainer"]) for each in items]
+
+            first = await home.live.proposal(here, electorate=("Ann",))
+            await ann.post(f"/api/v1/proposals/{first.id}/feedback", json=home.live.click(-1))
+            for _ in range(3):
+                other = await home.live.proposal(here, electorate=(HIDDEN,))
+                await bob.post(f"/api/v1/proposals/{other.id}/feedback", json=home.live.click(-1))
+            still_open = await home.live.proposal(here, electorate=(HIDDEN, "Ann"))
+            alone = await ann.post(f"/api/v1/proposals/{still_open.id}/feedback", json=home.live.click(1))
+            assert alone.status_code == 201, "one of two decides nothing, and it stays open"
+            assert await labels(ann, "Ann") == [(still_open.id, "Ann"), (first.id, "Ann")]
+            assert await labels(home.owner, HIDDEN) == [(other.id, HIDDEN), (other.id - 1, HIDDEN)]
+            # what is said of an open one is nobody else's to know, whoever they are
+            assert await labels(home.owner, "Ann") == [(first.id, "Ann")]
+            refused = await ann.get(f"/api/v1/experiments/{here}/feedback", params={"trainer": HIDDEN})
+            check_problem(refused, 403)
 
 
 def test_a_word_for_a_name_is_the_same_within_a_proposal_and_another_in_the_next() -> None:

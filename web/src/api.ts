@@ -638,7 +638,9 @@ export interface paths {
         };
         /**
          * List Feedback
-         * @description Feedback of an experiment, newest first, late and undone included; without votes on what is still open.
+         * @description Feedback of an experiment, newest first, late and undone included; without others' votes on what is still open.
+         *
+         *     One trainer's alone with `trainer`: one's own, or anybody's where an operator asks.
          */
         get: operations["list_feedback"];
         put?: never;
@@ -9293,6 +9295,8 @@ export interface operations {
                 cursor?: string | null;
                 /** @description most items of a page */
                 limit?: number;
+                /** @description only this trainer's; another's than one's own: operators only */
+                trainer?: string | null;
             };
             header?: never;
             path: {

@@ -292,11 +292,11 @@ export const evaluate = (id: number, rollouts: number) =>
 export const newestEvaluation = async (id: number) =>
   (await list<Evaluation>(`/experiments/${id}/evaluations?limit=1`))[0] ?? null;
 
-/** The newest proposals with what was said of them and what came of it, for the strip of the past. */
+/** The newest proposals with what one said of them and what came of it, for the strip of the past. */
 export const past = (id: number, most: number) =>
   Promise.all([
     list<Proposal>(`/experiments/${id}/proposals?limit=${most}`),
-    list<Feedback>(`/experiments/${id}/feedback?limit=200`),
+    list<Feedback>(`/experiments/${id}/feedback?limit=200&trainer=${encodeURIComponent(ME)}`),
     list<Execution>(`/experiments/${id}/executions?limit=${most}`),
   ]);
 
