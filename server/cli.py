@@ -151,7 +151,7 @@ def check(
 
 @app.command()
 def owner_token(data_dir: DataDir = None) -> None:
-    """Print a new token of the owner, for a service with a login; the one of before ends, with the owner's sessions."""
+    """Print a token by which the owner signs in once; those of before end, with the owner's sessions."""
     settings = _settings(data_dir=data_dir)
     _log("warning")
 

@@ -51,11 +51,16 @@ async def run_server(settings: Settings, *, announce: Callable[[str], None]) -> 
 async def _let_the_owner_in(
     service: Service, settings: Settings, address: str, announce: Callable[[str], None]
 ) -> None:
-    """By the token that a file holds, or, at the first start, by a new one that is told."""
+    """By the token that a file holds, or, at the first start, by a new one that is told and can be used once."""
     people = service.store.people
     if settings.owner_token_file is None:
         if not await people.has_owner():
-            announce(f"The owner's way in, told this once: {address}/join#{await people.owner_token()}")
+            announce(f"The owner's way in, told and good for once: {address}/join#{await people.owner_token()}")
+        elif await people.old_way_in():
+            announce(
+                "The owner's token of an earlier version never ends, and may stand in an old log: "
+                "seed owner-token ends it, and makes a way in that is good for once"
+            )
         return
     try:
         given = settings.owner_token_file.read_text("utf-8").strip()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Any
 
-from sqlalchemy import CheckConstraint, ForeignKey, Index, String
+from sqlalchemy import CheckConstraint, ForeignKey, Index, String, false
 from sqlalchemy.orm import Mapped, mapped_column, relationship
 
 from server.models_base import Base, one_of
@@ -64,6 +64,8 @@ class SessionRow(Base):
     digest: Mapped[str] = mapped_column(DIGEST, unique=True)
     kind: Mapped[str]
     note: Mapped[str]
+    once: Mapped[bool] = mapped_column(default=False, server_default=false())
+    """A token that opens nothing by itself: somebody signs in by it, a single time."""
     created_at: Mapped[datetime]
     expires_at: Mapped[datetime | None]
     revoked_at: Mapped[datetime | None]

@@ -28,7 +28,8 @@ class Settings(BaseSettings):
     login: Annotated[
         bool,
         Field(
-            description="ask everybody who they are. The first start prints the owner's token; the owner invites others"
+            description="ask everybody who they are. The first start prints the owner's way in, good for once; the "
+            "owner invites others"
         ),
     ] = False
     owner_token_file: Annotated[

@@ -26,6 +26,10 @@ OWNER = "owner"
 """Name of whoever holds the token that the first start prints."""
 
 
+FIRST_USE = timedelta(days=7)
+"""How long the owner may take to sign in by a token that was printed."""
+
+
 class WrongToken(Conflict):
     """The token opens nothing: mistyped, used up, expired or revoked. Which of them isn't told to a stranger."""
 
@@ -59,7 +63,7 @@ class PeopleStore:
 
         def find(session: Session) -> Principal | None:
             row = _active_session(session, key)
-            return None if row is None else _principal(row)
+            return None if row is None or row.once else _principal(row)
 
         return await self._database.read(find)
 
@@ -87,6 +91,8 @@ class PeopleStore:
                 own = _active_session(session, digest(body.token))
                 if own is None or own.kind != "token":
                     raise WrongToken
+                if own.once:
+                    own.revoked_at = _now()
                 person = own.person
             row = SessionRow(
                 person=person,
@@ -141,8 +147,22 @@ class PeopleStore:
         if who is None or who.name != OWNER or who.role is not Role.OWNER:
             await self.owner_token(token)
 
+    async def old_way_in(self) -> bool:
+        """Whether a token that an earlier version has printed, and that never ends, still lets the owner in."""
+
+        def find(session: Session) -> bool:
+            owners = _active().where(PersonRow.name == OWNER).order_by(SessionRow.id)
+            # what made it has ended those of before; the sessions that came of it stand behind it
+            oldest = session.scalars(owners).first()
+            return oldest is not None and oldest.kind == "token" and not any(row.once for row in oldest.person.sessions)
+
+        return await self._database.read(find)
+
     async def owner_token(self, given: str | None = None) -> str:
-        """A new token of the owner. Those of before, and every session of the owner, end."""
+        """A new token of the owner. Those of before, and every session of the owner, end.
+
+        given: one that is kept somewhere and stays; else one is made, by which the owner signs in a single time.
+        """
         made = given or new_token()
 
         def make(session: Session) -> None:
@@ -153,7 +173,12 @@ class PeopleStore:
             person.revoked_at, person.role = None, Role.OWNER.value
             for each in person.sessions:
                 each.revoked_at = each.revoked_at or _now()
-            session.add(SessionRow(person=person, digest=digest(made), kind="token", note="", created_at=_now()))
+            row = session.scalars(select(SessionRow).where(SessionRow.digest == digest(made))).one_or_none()
+            if row is None:
+                row = SessionRow(digest=digest(made), note="", created_at=_now())
+                session.add(row)
+            row.person, row.kind, row.revoked_at = person, "token", None
+            row.once, row.expires_at = given is None, None if given else _now() + FIRST_USE
             record(session, "owner_token_made")
 
         await self._database.write(make)

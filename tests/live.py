@@ -135,10 +135,11 @@ class LiveService:
         return dict(answer.json())
 
     def sign_in(self) -> str:
-        """With SEED_LOGIN: the owner's token, as the first start printed it, goes with every request from now on."""
-        (token,) = re.findall(r"/join#(\S+)", self.log())
+        """With SEED_LOGIN: come in by what the first start printed; the token goes with every request from now on."""
+        (printed,) = re.findall(r"/join#(\S+)", self.log())
+        token = str(self.post("/sign-in", {"token": printed, "bearer": True})["token"])
         self.http.headers["Authorization"] = f"Bearer {token}"
-        return str(token)
+        return token
 
     def get(self, path: str) -> dict[str, Any]:
         """GET below /api/v1 and expect success."""

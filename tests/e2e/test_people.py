@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
+import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -44,9 +45,15 @@ class Published:
 
     @property
     def owner_link(self) -> str:
-        """What the first start has printed, at the address of the proxy."""
+        """What the first start has printed, at the address of the proxy; good for once."""
         (token,) = re.findall(r"/seed/join#(\S+)", self.service.log())
         return f"{self.url}/join#{token}"
+
+    def another_link(self) -> str:
+        """What the owner makes who has lost the first."""
+        command = [sys.executable, "-c", "from server.cli import app; app()", "owner-token", "--data-dir"]
+        told = subprocess.run([*command, self.service.data_dir], check=True, capture_output=True, text=True)
+        return f"{self.url}/join#{told.stdout.strip()}"
 
 
 @pytest.fixture(scope="module")
@@ -173,7 +180,7 @@ def test_a_viewer_sees_everything_and_judges_nothing(
     published: Published, visitor: Callable[[], tuple[Page, list[str]]]
 ) -> None:
     owner, _ = visitor()
-    owner.goto(published.owner_link)
+    owner.goto(published.another_link())
     owner.get_by_test_id("sign-in").click()
     owner.get_by_test_id("to-people").click()
     owner.get_by_label("Role", exact=True).select_option("viewer")

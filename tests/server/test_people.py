@@ -21,6 +21,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from server.doors import COOKIE
 from server.store import Store
+from server.store_people import new_token
 from server.stream import HASTE_LIMIT, SIGNED_OUT
 from tests.server.databases import click, opened, running
 from tests.server.serving import Serving, event, serving
@@ -62,7 +63,7 @@ def bearer(client: httpx.AsyncClient) -> dict[str, str]:
 @asynccontextmanager
 async def house(tmp_path: Path, **settings: Any) -> AsyncIterator[House]:
     async with serving(tmp_path, login=True, **settings) as live:
-        token = await live.service.store.people.owner_token()
+        token = await live.service.store.people.owner_token(new_token())
         async with httpx.AsyncClient(
             base_url=live.url, headers={"Authorization": f"Bearer {token}"}, timeout=60
         ) as owner:

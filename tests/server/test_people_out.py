@@ -12,6 +12,7 @@ from websockets.exceptions import ConnectionClosed
 from server.models_people import PersonRow
 from server.stream import SIGNED_OUT
 from tests.server.serving import event
+from tests.server.test_errors import check_problem
 from tests.server.test_people import experiment, house
 
 
@@ -40,6 +41,40 @@ async def test_a_new_owner_token_made_elsewhere_ends_what_the_owner_has_open(tmp
             with pytest.raises(ConnectionClosed):
                 await event(page, "something that never comes", patience=30)
             assert page.close_code == SIGNED_OUT
+
+
+async def test_the_owner_s_printed_token_signs_in_once_and_opens_nothing_by_itself(tmp_path: Path) -> None:
+    async with house(tmp_path) as home:
+        people, http = home.live.service.store.people, home.live.http
+        printed = await people.owner_token()
+        async with home.client(printed) as program:
+            assert (await program.get("/api/v1/people")).status_code == 401
+        entered = await http.post("/api/v1/sign-in", json={"token": printed, "bearer": True})
+        assert entered.json()["role"] == "owner"
+        for body in ({"token": printed}, {"token": printed, "bearer": True}):
+            check_problem(await http.post("/api/v1/sign-in", json=body), 401)
+        async with home.client(entered.json()["token"]) as owner:
+            assert (await owner.get("/api/v1/people")).status_code == 200
+            # whoever loses the way in gets another one, and this one ends
+            again = await people.owner_token()
+            assert (await owner.get("/api/v1/people")).status_code == 401
+        assert (await http.post("/api/v1/sign-in", json={"token": again})).status_code == 200
+
+
+async def test_an_owner_s_token_of_an_earlier_version_or_of_a_file_stays_until_another_is_made(tmp_path: Path) -> None:
+    async with house(tmp_path) as home:
+        people, http = home.live.service.store.people, home.live.http
+        body = {"token": home.owner_token, "bearer": True}
+        assert await people.old_way_in()
+        for _ in range(2):
+            assert (await home.owner.get("/api/v1/people")).status_code == 200
+            assert (await http.post("/api/v1/sign-in", json=body)).status_code == 200
+        await people.owner_token()
+        assert not await people.old_way_in()
+        assert (await home.owner.get("/api/v1/people")).status_code == 401
+        check_problem(await http.post("/api/v1/sign-in", json=body), 401)
+        await people.own_by(home.owner_token)  # a start with a file that holds it
+        assert (await home.owner.get("/api/v1/people")).status_code == 200
 
 
 async def test_wrong_tokens_of_others_at_an_address_shut_out_nobody_who_has_a_right_one(tmp_path: Path) -> None:
