@@ -138,9 +138,11 @@ class Deoxys:
         self._terminate()
 
     def halt(self) -> None:
-        """See `FrankaBackend`."""
+        """See `FrankaBackend`. Fingers that stand are left alone: a stop would let go of what they hold."""
         self._terminate()
-        self._say_to_hand(self._messages.FrankaGripperStopMessage(stop=True))
+        if self._asked_at is not None:
+            self._asked_at = None
+            self._say_to_hand(self._messages.FrankaGripperStopMessage(stop=True))
 
     def start_joints(self, joints: Array) -> None:
         """See `FrankaBackend`."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import queue
 import threading
 from collections.abc import Callable
 from typing import Protocol
@@ -39,7 +38,7 @@ class Hand(Protocol):
 
 
 class Fingers:
-    """One hand. The newest command wins over one that hasn't begun."""
+    """One hand. A command that hasn't begun is replaced by a newer one, and taken back by a stop."""
 
     def __init__(self, connect: Callable[[], Hand], failures: tuple[type[Exception], ...]) -> None:
         """Connect to the hand; without one, every question is answered by `there=False`.
@@ -49,9 +48,11 @@ class Fingers:
             failures: what the driver raises.
         """
         self._failures = failures
-        self._asked: queue.Queue[str] = queue.Queue()
-        self._pending = 0
-        self._lock = threading.Lock()
+        self._changed = threading.Condition()
+        self._asked: str | None = None
+        """What is to be done next."""
+        self._doing = False
+        self._closing = False
         self._hand: Hand | None = None
         self._width = 0.0
         try:
@@ -66,27 +67,34 @@ class Fingers:
     @property
     def state(self) -> HandState:
         """What was seen last."""
-        return HandState(self._width, self._pending > 0, there=self._hand is not None)
+        with self._changed:
+            return HandState(self._width, self._doing or self._asked is not None, there=self._hand is not None)
 
     def ask(self, what: str) -> None:
         """Begin to `grasp` or `open`."""
         if self._hand is None:
             return
-        with self._lock:
-            self._pending += 1
-        self._asked.put(what)
+        with self._changed:
+            self._asked = what
+            self._changed.notify()
 
     def stop(self) -> None:
-        """Let the fingers stand still, if they move."""
-        if self._hand is not None and self._pending:
+        """Let the fingers stand still, if they move; what hasn't begun never does. Fingers that hold something go on."""
+        hand = self._hand
+        with self._changed:
+            self._asked = None
+            moving = self._doing
+        if hand is not None and moving:
             try:
-                self._hand.stop()
+                hand.stop()
             except self._failures as error:
                 log.warning("the hand didn't stop: %s", error)
 
     def close(self) -> None:
         """End the thread and the connection; a command that doesn't end isn't waited for."""
-        self._asked.put("")
+        with self._changed:
+            self._closing, self._asked = True, None
+            self._changed.notify()
         if self._hand is not None:
             self._thread.join(1.0)
         self._hand = None
@@ -95,23 +103,24 @@ class Fingers:
         hand = self._hand
         assert hand is not None
         while True:
-            try:
-                what = self._asked.get(timeout=IDLE_LOOK)
-            except queue.Empty:
-                what = "look"
-            if not what:
-                return
-            try:
-                if what != "look":
-                    {"grasp": hand.grasp, "open": hand.open}[what]()
-                self._width = hand.width()
-            except self._failures as error:
-                if what == "look":
-                    log.warning("the hand is gone: %s", error)
-                    self._hand = None
+            with self._changed:
+                self._changed.wait_for(lambda: self._closing or self._asked is not None, IDLE_LOOK)
+                if self._closing:
                     return
-                log.warning("the hand didn't %s: %s", what, error)
-            finally:
-                if what != "look":
-                    with self._lock:
-                        self._pending -= 1
+                # taken and begun in one: nothing that waits, such as a look at the width, lies between
+                what, self._asked = self._asked, None
+                self._doing = what is not None
+            if what is not None:
+                try:
+                    {"grasp": hand.grasp, "open": hand.open}[what]()
+                except self._failures as error:
+                    log.warning("the hand didn't %s: %s", what, error)
+            try:
+                self._width = hand.width()  # also after a failure: the width tells what came of it
+            except self._failures as error:
+                log.warning("the hand is gone: %s", error)
+                self._hand = None
+            with self._changed:
+                self._doing = False
+            if self._hand is None:
+                return

@@ -35,6 +35,7 @@ class DeoxysPeer:
         self.goals: list[Array] = []
         """Every place that was asked for, (3,) m."""
         self.terminations = 0
+        self.hand_stops = 0
         self.silent = False
         self.timed_out = False
         self._goal: Array | None = None
@@ -105,6 +106,7 @@ class DeoxysPeer:
             elif asked.control_msg.Unpack(move):
                 self._width_goal = move.width
             else:
+                self.hand_stops += 1
                 self._width_goal = self.width
 
     def _move(self) -> None:

@@ -65,6 +65,27 @@ def test_a_pick_goes_over_the_wire_within_the_limits(arm: FrankaArm, peer: Deoxy
     arm.backend.open()
 
 
+def test_a_stop_lets_moving_fingers_stand_and_others_hold_what_they_have(arm: FrankaArm, peer: DeoxysPeer) -> None:
+
+    def closing() -> bool:
+        arm.backend.grasp()  # again: the first may come before the other side listens
+        return peer.width < 0.075
+
+    wait_for(closing, "the fingers to move")
+    arm.halt()
+    wait_for(lambda: peer.hand_stops == 1, "the stop to be told")
+    stood = peer.width
+    assert stood > 0.04
+    arm.backend.grasp()
+    wait_for(lambda: not arm.backend.hand().busy, "the fingers to hold the block")
+    terminations = peer.terminations
+    arm.halt()
+    wait_for(lambda: peer.terminations > terminations, "the stop to be told")
+    arm.backend.open()  # comes after whatever the stop said to the hand
+    wait_for(lambda: peer.width > 0.045, "the fingers to open")
+    assert peer.hand_stops == 1
+
+
 def test_a_stop_and_silence_are_heeded(arm: FrankaArm, peer: DeoxysPeer) -> None:
     steps = 0
 
