@@ -9,7 +9,8 @@ from dataclasses import replace
 import numpy as np
 
 from robot_adapters.base import Array, Unavailable
-from robot_adapters.franka.backend import READY, ArmFault, ArmState, FrankaBackend, Goal, Mode
+from robot_adapters.franka.backend import READY, ArmFault, ArmState, FingersFault, FrankaBackend, Goal, Mode
+from robot_adapters.franka.holding import OPEN
 from robot_adapters.franka.limits import Limits, Pacer
 
 CONTROL_HZ = 20.0
@@ -20,8 +21,6 @@ SILENCE = 0.5
 """s of real time without a new state, after which the arm counts as gone; longer where the dead-man timer is."""
 HAND_PATIENCE = 6.0
 """s of the robot's clock for the fingers to open or close: all the way takes two."""
-SHUT = 0.01
-"""m between the fingers below which they are closed, whatever they were asked last."""
 HOMING_PATIENCE = 30.0
 """s of the robot's clock for the way to the joints of home."""
 HOMING_LIFT = 0.15
@@ -67,7 +66,8 @@ class FrankaArm:
             )
         self._state = backend.state()
         self._pacer: Pacer | None = None
-        self._closed = backend.hand().width < SHUT  # an open hand is open; a held object is told by `grasp` only
+        # whatever they were asked last, by whomever: also an object that they hold keeps them from being open
+        self._closed = backend.hand().width < OPEN
         self._trim = np.zeros(3)
         self._overload: str | None = None
         self.should_stop: Callable[[], bool] = lambda: False
@@ -93,7 +93,7 @@ class FrankaArm:
         """Hold the set-point for one control period of the robot's clock, longer where the fingers move.
 
         Raises:
-            ArmFault: the arm has stopped itself, was stopped, or is gone.
+            ArmFault: the arm has stopped itself, was stopped, or is gone; or the fingers didn't move as they were told.
             Refused: the set-point isn't within the limits.
         """
         self.last_set_point_at = time.monotonic()
@@ -108,6 +108,10 @@ class FrankaArm:
             self._closed = gripper_closed
             (self.backend.grasp if gripper_closed else self.backend.open)()
             self._wait(lambda _: not self.backend.hand().busy, HAND_PATIENCE, "the fingers don't arrive")
+            if self.should_stop():
+                self.halt()
+                return
+            self._fingers_must_have_obeyed()
         until = self._state.time + PERIOD
         self._wait(lambda state: state.time >= until, SILENCE + PERIOD, "")
 
@@ -151,8 +155,7 @@ class FrankaArm:
         """
         self._overload = None
         self._must_be_well(self.look())
-        if self.backend.hand().width < SHUT:  # somebody may have closed them by hand, and a skill must open them then
-            self._closed = True
+        self._closed = self.backend.hand().width < OPEN  # somebody may have moved them by hand
 
     def end(self) -> None:
         """Give control back after a skill."""
@@ -253,6 +256,18 @@ class FrankaArm:
                 raise ArmFault(what or "the arm doesn't follow", mode=state.mode, remedy="look at it, then try again")
             self.while_waiting()
             time.sleep(POLL)
+
+    def _fingers_must_have_obeyed(self) -> None:
+        """See what came of the last command, whatever the hand says of it: only the width is sure."""
+        width = self.backend.hand().width
+        if self._closed == (width < OPEN):
+            return
+        told = "close" if self._closed else "open"
+        raise FingersFault(
+            f"the fingers didn't {told}: they are {1000 * width:.0f} mm apart",
+            mode=self._state.mode,
+            remedy="see what keeps them from it; in Desk, initialise the hand anew if it doesn't move; then resume",
+        )
 
     def _yield(self, state: ArmState) -> None:
         """Stay here instead of pushing on; what asks `overload` then ends the skill."""

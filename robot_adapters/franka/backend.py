@@ -47,6 +47,10 @@ class ArmFault(AdapterError):
         self.mode = mode
 
 
+class FingersFault(ArmFault):
+    """The fingers didn't do what they were told. The arm itself is well; somebody has to look at the hand."""
+
+
 @dataclass(frozen=True)
 class ArmState:
     """The arm at one moment of its own clock.

@@ -29,7 +29,9 @@ ONCE_MORE = 0.1
 PATIENCE = 3.0
 """s for the first states: sockets connect in the background."""
 SETTLED = 0.35
-"""s for which fingers that have been told to move stand still before they count as arrived."""
+"""s for which fingers that have moved stand still before they count as arrived."""
+BEGINNING = 1.0
+"""s that fingers which have been told to move may take to begin; then they count as arrived where they are."""
 STILL = 0.0003
 """m between two looks at fingers that stand still."""
 ROTATIONAL = 60.0
@@ -68,6 +70,7 @@ class Deoxys:
         self._state: Any = None
         self._heard_at = time.monotonic()
         self._width: float | None = None
+        self._hand_heard_at = time.monotonic()
         self._asked_at: float | None = None
         self._moved_at = 0.0
         self._joints: Array | None = None
@@ -111,10 +114,14 @@ class Deoxys:
     def hand(self) -> HandState:
         """See `FrankaBackend`. That the fingers have arrived is told by their standing still."""
         self._hear(0.0)
+        if self._hand_unheard():
+            self._hear(ONCE_MORE)
         now = time.monotonic()
-        if self._asked_at is not None and now - max(self._asked_at, self._moved_at) > SETTLED:
-            self._asked_at = None
-        return HandState(self._width or 0.0, self._asked_at is not None)
+        if self._asked_at is not None:
+            moved = self._moved_at > self._asked_at
+            if now - max(self._asked_at, self._moved_at) > (SETTLED if moved else BEGINNING):
+                self._asked_at = None
+        return HandState(self._width or 0.0, self._asked_at is not None, there=not self._hand_unheard())
 
     def begin(self) -> None:
         """See `FrankaBackend`. Deoxys takes control with the first goal."""
@@ -195,6 +202,9 @@ class Deoxys:
     def _unheard(self) -> bool:
         return time.monotonic() - self._heard_at > self._driving.silence
 
+    def _hand_unheard(self) -> bool:
+        return time.monotonic() - self._hand_heard_at > self._driving.silence
+
     def _bound(self, port: int) -> Any:
         socket = self._context.socket(self._zmq.PUB)
         socket.bind(f"tcp://{self._driving.bind}:{port}")
@@ -221,6 +231,7 @@ class Deoxys:
                 told = self._messages.FrankaGripperStateMessage.FromString(
                     self._hand_states.recv(flags=self._zmq.NOBLOCK)
                 )
+                self._hand_heard_at = time.monotonic()
                 if self._width is None or abs(told.width - self._width) > STILL:
                     self._moved_at = time.monotonic()
                 self._width = told.width

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from robot_adapters.base import EndReason, SafetyViolation
-from robot_adapters.franka.backend import WORDS, ArmFault, Mode
+from robot_adapters.franka.backend import ArmFault, FingersFault, Mode
 from robot_adapters.franka.limits import Refused
 
 
@@ -17,8 +17,11 @@ def ended_by(fault: ArmFault | Refused) -> EndReason:
 
 
 def violations_of(fault: ArmFault | Refused) -> tuple[SafetyViolation, ...]:
-    """A reflex and a lost arm need somebody to look before anything else; a button that was pressed needs a hand."""
+    """A reflex and a lost arm need somebody to look before anything else.
+
+    A button that was pressed, or fingers that are stuck, need a hand.
+    """
     if isinstance(fault, Refused):
         return ()
-    kind = "manual_reset" if fault.mode is Mode.USER_STOPPED else "damage"
-    return (SafetyViolation(kind, f"{fault}. {WORDS[fault.mode]}"),)
+    by_hand = isinstance(fault, FingersFault) or fault.mode is Mode.USER_STOPPED
+    return (SafetyViolation("manual_reset" if by_hand else "damage", f"{fault}. {fault.remedy}"),)

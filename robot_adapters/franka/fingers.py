@@ -79,7 +79,7 @@ class Fingers:
             self._changed.notify()
 
     def stop(self) -> None:
-        """Let the fingers stand still, if they move; what hasn't begun never does. Fingers that hold something go on."""
+        """Let the fingers stand still, if they move; what hasn't begun never does. What is held stays held."""
         hand = self._hand
         with self._changed:
             self._asked = None

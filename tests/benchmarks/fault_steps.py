@@ -164,7 +164,7 @@ class Day:
 
     def breaks(self) -> bool:
         """Something breaks while nothing moves."""
-        match int(self.chance.integers(8)):
+        match int(self.chance.integers(9)):
             case 0:
                 self.arm.mode = self._one_of((Mode.REFLEX, Mode.USER_STOPPED, Mode.DISCONNECTED))
             case 1:
@@ -179,6 +179,8 @@ class Day:
                 self.eyes.gone = True
             case 6:
                 self.eyes.broken = True
+            case 7:
+                self.arm.stuck = True
             case _:
                 self._press_stop()
         return False
@@ -192,6 +194,7 @@ class Day:
             self._stopped = False
         if self.chance.random() < 0.9:
             self.arm.mode, self.arm.there, self.arm.frozen, self.arm.newtons = Mode.IDLE, True, False, 0.0
+            self.arm.stuck = False
             self.eyes.lost = self.eyes.gone = self.eyes.broken = False
         return False
 
@@ -349,6 +352,9 @@ class Day:
     def _lose_cameras(self) -> None:
         self.eyes.gone = True
 
+    def _jam(self) -> None:
+        self.arm.stuck = True
+
     def _break_eyes(self) -> None:
         self.eyes.broken = True
 
@@ -362,10 +368,12 @@ _TROUBLE: dict[str, Callable[[Day], None]] = {
     "states stand still": Day._freeze,
     "driver frozen": Day._sleep,
     "pushed": Day._push,
+    "fingers stuck": Day._jam,
     "camera gone": Day._lose_cameras,
     "eyes broken": Day._break_eyes,
     "the operator leaves": lambda _: time.sleep(ATTENDED + 0.01),
 }
-_MUST_END = frozenset(_TROUBLE) - {"pushed", "camera gone", "eyes broken"}
-"""After these no set-point may follow but the one on its way and the one that holds still; a push brakes by some, and
-nothing of an approved motion rests on a picture. Whatever happened, nothing may be under control after its end."""
+_MUST_END = frozenset(_TROUBLE) - {"pushed", "fingers stuck", "camera gone", "eyes broken"}
+"""After these no set-point may follow but the one on its way and the one that holds still; a push brakes by some,
+fingers end a motion where they are told to move, and none of it rests on a picture. Whatever happened, nothing may be
+under control after its end."""

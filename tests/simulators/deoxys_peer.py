@@ -36,7 +36,9 @@ class DeoxysPeer:
         """Every place that was asked for, (3,) m."""
         self.terminations = 0
         self.hand_stops = 0
-        self.silent = False
+        self.silent = self.hand_silent = False
+        self.jammed = False
+        """Whether the fingers stay where they are, whatever they are told."""
         self.timed_out = False
         self._goal: Array | None = None
         self._joint_goal: Array | None = None
@@ -123,7 +125,8 @@ class DeoxysPeer:
         if self._joint_goal is not None:
             self.joints = _towards(self.joints, self._joint_goal, SPEED * TICK)
             self.position = HOME + (self.joints - READY)[:3]
-        self.width += float(np.clip(self._width_goal - self.width, -FINGERS * TICK, FINGERS * TICK))
+        if not self.jammed:
+            self.width += float(np.clip(self._width_goal - self.width, -FINGERS * TICK, FINGERS * TICK))
 
     def _tell(self) -> None:
         state = wire.FrankaRobotStateMessage(robot_mode=self.mode)
@@ -136,7 +139,9 @@ class DeoxysPeer:
         state.O_F_ext_hat_K.extend([0.0] * 6)
         state.time.toSec = self._clock
         self._states.send(state.SerializeToString())
-        self._hand_states.send(wire.FrankaGripperStateMessage(width=self.width, max_width=0.08).SerializeToString())
+        if not self.hand_silent:
+            told = wire.FrankaGripperStateMessage(width=self.width, max_width=0.08)
+            self._hand_states.send(told.SerializeToString())
 
 
 def _towards(here: Array, goal: Array, most: float) -> Array:

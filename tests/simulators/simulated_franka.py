@@ -237,6 +237,7 @@ class Lab:
 
     def do_heal(self, _: Any) -> None:
         """Whatever was wrong is over; the arm is at home with open fingers."""
+        self.do_jammed(on=False)
         self.server.mode, self.server.errors = None, [False] * 41
         self.server.wrench[:], self.push_until = 0.0, 0
         if not self.server.moving:
@@ -260,6 +261,13 @@ class Lab:
     def do_fingers(self, width: float) -> None:
         """Somebody moves the fingers by hand: m between them."""
         self.robot.set_hand_goal(width, 0.05, 70.0)
+
+    def do_jammed(self, on: bool) -> None:
+        """The fingers don't move, and the hand says of every command that it has succeeded; or they do again."""
+        if on:
+            self.robot.set_hand_goal = lambda *_: None
+        else:
+            self.robot.__dict__.pop("set_hand_goal", None)
 
     def do_slippery(self, on: bool) -> None:
         """Blocks are smooth and pulled down, or as they were: fingers close on them, and they slide out."""

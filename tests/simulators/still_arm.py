@@ -23,13 +23,13 @@ class Order:
 
 
 class StillArm:
-    """`FrankaBackend` for what rests on the order of things only. A test sets `mode`, `there`, `frozen`, `newtons`."""
+    """`FrankaBackend` for what rests on the order of things only. A test sets what its comments name."""
 
     def __init__(self) -> None:
         self.orders: list[Order] = []
         """Everything that would have moved a real arm, in order."""
         self.position, self.yaw, self.joints = HOME.copy(), 0.0, READY.copy()
-        self.width, self.found = 0.08, 0.04
+        self.width, self.found, self.stuck = 0.08, 0.04, False  # m; m that they find; whether they don't move
         self.mode, self.there, self.frozen, self.newtons = Mode.IDLE, True, False, 0.0
         self._controlled, self._time, self._homing = False, 0.0, 0
 
@@ -94,12 +94,12 @@ class StillArm:
     def grasp(self) -> None:
         """See `FrankaBackend`."""
         self.orders.append(Order("grasp"))
-        self.width = self.found
+        self.width = self.width if self.stuck else self.found
 
     def open(self) -> None:
         """See `FrankaBackend`."""
         self.orders.append(Order("open"))
-        self.width = 0.08
+        self.width = self.width if self.stuck else 0.08
 
     def recover(self) -> None:
         """See `FrankaBackend`."""

@@ -15,7 +15,7 @@ from robot_adapters import registry
 from robot_adapters.base import EndReason, SkillCall, Unavailable
 from robot_adapters.franka import FrankaSettings, connecting, deoxys_pb2
 from robot_adapters.franka.arm import FrankaArm
-from robot_adapters.franka.backend import ArmFault, Mode
+from robot_adapters.franka.backend import ArmFault, FingersFault, Mode
 from robot_adapters.skills import run_skill
 from tests.live import wait_for
 from tests.robot_adapters.franka.conftest import TABLE, never, nothing
@@ -105,6 +105,30 @@ def test_a_stop_and_silence_are_heeded(arm: FrankaArm, peer: DeoxysPeer) -> None
     assert gone.value.mode is Mode.DISCONNECTED
     arm.halt()
     assert len(peer.goals) - asked < 40
+
+
+def test_a_hand_that_says_no_more_or_does_not_move_ends_the_skill(arm: FrankaArm, peer: DeoxysPeer) -> None:
+    peer.jammed = True
+    arm.begin()
+    with pytest.raises(FingersFault, match="didn't close") as stuck:
+        run_skill(arm, PICK, TASK.skills[0], should_stop=never, on_step=nothing)
+    assert "Desk" in stuck.value.remedy
+    arm.halt()
+    peer.jammed = False
+    steps = 0
+
+    def fall_silent() -> None:
+        nonlocal steps
+        steps += 1
+        peer.hand_silent = steps > 5
+
+    arm.begin()
+    with pytest.raises(ArmFault, match="hand doesn't answer") as gone:
+        run_skill(arm, PICK, TASK.skills[0], should_stop=never, on_step=fall_silent)
+    assert gone.value.mode is Mode.DISCONNECTED
+    arm.halt()
+    peer.hand_silent = False
+    wait_for(lambda: arm.backend.hand().there, "the hand to be heard again")
 
 
 def test_a_reflex_is_told_with_what_helps(arm: FrankaArm, peer: DeoxysPeer) -> None:
