@@ -14,6 +14,12 @@ export const LOOK_MS = 250;
 /** How long a hint stays; it fades at the end (trainer.css). */
 const HINT_MS = 3000;
 
+/** A press or a stroke: times in ms, as in `Event.timeStamp`. */
+export interface Press {
+  begun: number;
+  ended: number;
+}
+
 /** Why the newest press didn't count. */
 export interface Hint {
   id: number;
@@ -26,8 +32,8 @@ export interface Judging {
   /** Whether a press counts now. */
   accepting: boolean;
   hint: Hint | null;
-  /** `pressedAt` in ms, as in `Event.timeStamp`. */
-  judge: (value: Value, pressedAt: number) => void;
+  /** What counts is what was seen when the press began: the next proposal may come while it is held. */
+  judge: (value: Value, press: Press) => void;
 }
 
 /** What to say of a press that doesn't count; nothing where judging isn't on offer at all. */
@@ -71,10 +77,10 @@ export function useJudging(
     return () => clearTimeout(timer);
   }, [hint]);
 
-  const judge = (value: Value, pressedAt: number) => {
-    if (ready && drawnId !== null && state.proposal?.id === drawnId && clock.age(pressedAt) >= LOOK_MS) {
+  const judge = (value: Value, { begun, ended }: Press) => {
+    if (ready && drawnId !== null && state.proposal?.id === drawnId && clock.age(begun) >= LOOK_MS) {
       setHint(null);
-      clock.clicked(pressedAt);
+      clock.clicked(ended);
       send(state.proposal, value);
       return;
     }

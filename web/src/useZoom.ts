@@ -1,5 +1,6 @@
 // Wheel, pinch, drag and double click on a view: zoom, pan, and on a touch screen strokes that judge.
 import { type RefObject, useEffect, useEffectEvent, useRef, useState } from "react";
+import type { Press } from "./useJudging";
 import { pan, type Swipe, swipeOf, WHOLE, type Zoom, zoomAt } from "./zoom";
 
 interface Finger {
@@ -18,15 +19,15 @@ export interface Zooming {
 
 const STEP = 1.4;
 
-/** `onSwipe` is told of a stroke of one finger while nothing is zoomed, with the time of its end. */
+/** `onSwipe` is told of a stroke of one finger while nothing is zoomed. */
 export function useZoom(
   frame: RefObject<HTMLElement | null>,
-  onSwipe?: (swipe: Swipe, at: number) => void,
+  onSwipe?: (swipe: Swipe, press: Press) => void,
 ): Zooming {
   const [zoom, setZoom] = useState(WHOLE);
   const [stroke, setStroke] = useState<Swipe | null>(null);
   const fingers = useRef(new Map<number, Finger>());
-  const begun = useRef<Finger | null>(null);
+  const begun = useRef<(Finger & { at: number }) | null>(null);
 
   const onWheel = useEffectEvent((event: WheelEvent) => {
     const box = frame.current?.getBoundingClientRect();
@@ -43,7 +44,7 @@ export function useZoom(
     fingers.current.set(event.pointerId, { x: event.clientX, y: event.clientY });
     begun.current =
       event.pointerType === "touch" && fingers.current.size === 1 && zoom.scale === 1
-        ? { x: event.clientX, y: event.clientY }
+        ? { x: event.clientX, y: event.clientY, at: event.timeStamp }
         : null;
     if (zoom.scale > 1) frame.current?.setPointerCapture(event.pointerId);
   });
@@ -75,7 +76,7 @@ export function useZoom(
     setStroke(null);
     if (!from || event.type !== "pointerup") return;
     const swipe = swipeOf(event.clientX - from.x, event.clientY - from.y);
-    if (swipe) onSwipe?.(swipe, event.timeStamp);
+    if (swipe) onSwipe?.(swipe, { begun: from.at, ended: event.timeStamp });
   });
 
   const onDouble = useEffectEvent((event: MouseEvent) => {

@@ -1,15 +1,23 @@
 // A press counts for the proposal that somebody has looked at; one that doesn't count says so.
-import { act } from "react";
+import { act, useRef } from "react";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { ActivityLine } from "../src/components/ActivityLine";
 import { JudgeBar } from "../src/components/JudgeBar";
 import { initial, reduce, type TrainerState } from "../src/state";
-import { LOOK_MS, useJudging } from "../src/useJudging";
+import { LOOK_MS, type Press, useJudging } from "../src/useJudging";
+import { useZoom } from "../src/useZoom";
 import type { Experiment, StreamEvent, Value } from "../src/wire";
 import { execution, experiment, feedback, proposal, snapshot } from "./messages";
 import { byTestId, press, show } from "./render";
 
 type Sent = [proposal: number, value: Value];
+
+/** A view whose strokes judge, as the trainer's page has it. */
+function Strokes({ onStroke }: { onStroke: (value: Value, press: Press) => void }) {
+  const frame = useRef<HTMLElement>(null);
+  useZoom(frame, (swipe, press) => onStroke(swipe === "left" ? -1 : 1, press));
+  return <figure ref={frame} data-testid="strokes" />;
+}
 
 function Page({ state, drawnId, sent }: { state: TrainerState; drawnId: number | null; sent: Sent[] }) {
   const { ready, accepting, hint, judge } = useJudging(state, drawnId, ({ id }, value) =>
@@ -24,6 +32,7 @@ function Page({ state, drawnId, sent }: { state: TrainerState; drawnId: number |
         canUndo={false}
         onUndo={() => undefined}
       />
+      <Strokes onStroke={(value, press) => judge(value, press)} />
       <JudgeBar ready={ready} chosen={null} canUndo={false} onJudge={judge} onUndo={() => undefined} />
     </div>
   );
@@ -45,6 +54,32 @@ const clickOn = (testId: string, detail = 1) =>
     Object.defineProperty(event, "timeStamp", { value: performance.now() });
     byTestId(testId).dispatchEvent(event);
   });
+
+const send = (event: Event, target: EventTarget) =>
+  act(async () => {
+    Object.defineProperty(event, "timeStamp", { value: performance.now() });
+    target.dispatchEvent(event);
+  });
+
+/** Down with the mouse, the finger or the space bar; what follows, when it is lifted. */
+const DOWN = {
+  mouse: async (testId: string) => {
+    await send(new PointerEvent("pointerdown", { bubbles: true }), byTestId(testId));
+    return () => clickOn(testId);
+  },
+  "space bar": async (testId: string) => {
+    await send(new KeyboardEvent("keydown", { key: " ", bubbles: true }), byTestId(testId));
+    return () => clickOn(testId, 0);
+  },
+  finger: async (testId: string) => {
+    const view = byTestId("strokes");
+    const pointer = { pointerId: 1, pointerType: "touch", bubbles: true, clientX: 200 };
+    const clientX = testId === "bad" ? 50 : 350;
+    await send(new PointerEvent("pointerdown", pointer), view);
+    await send(new PointerEvent("pointermove", { ...pointer, clientX }), view);
+    return () => send(new PointerEvent("pointerup", { ...pointer, clientX }), view);
+  },
+};
 
 const drawn = (id: number, sent: Sent[]) => show(<Page state={waiting(id)} drawnId={id} sent={sent} />);
 
@@ -104,6 +139,39 @@ describe("judging what was looked at", () => {
       [3, -1],
       [4, 1],
     ]);
+  });
+
+  it.each(["mouse", "space bar", "finger"] as const)(
+    "takes no press for a proposal that came while it was held, and every other: %s",
+    async (how) => {
+      const sent: Sent[] = [];
+      await drawn(1, sent);
+      await pass(1000);
+      const lift = await DOWN[how]("bad");
+      await pass(40);
+      await drawn(2, sent);
+      await pass(LOOK_MS + 100);
+      expect(accepting()).toBe(true);
+      await lift();
+      expect(sent).toEqual([]);
+      expect(hint()).toBe("Too fast, not counted: look at this one first.");
+      const again = await DOWN[how]("good");
+      await pass(2000);
+      await again();
+      expect(sent).toEqual([[2, 1]]);
+    },
+  );
+
+  it("takes a click without a press, as a screen reader makes it, whatever was pressed and let go before", async () => {
+    const sent: Sent[] = [];
+    await drawn(1, sent);
+    await DOWN.mouse("bad");
+    await DOWN["space bar"]("bad");
+    await send(new FocusEvent("focusout", { bubbles: true }), byTestId("bad"));
+    await drawn(2, sent);
+    await pass(LOOK_MS);
+    await clickOn("bad", 0);
+    expect(sent).toEqual([[2, -1]]);
   });
 
   it("says that it accepts presses only once it does, and anew for a proposal that an undo brought back", async () => {

@@ -4,6 +4,7 @@ import { useLookedAt } from "../considering";
 import type { FrameSink } from "../frames";
 import { cameraName, skillName, t } from "../i18n";
 import { useSettings } from "../settings";
+import type { Press } from "../useJudging";
 import { useZoom } from "../useZoom";
 import type { FrameHeader, View } from "../wire";
 import type { Swipe } from "../zoom";
@@ -25,7 +26,7 @@ export interface CameraViewProps {
   /** Whether the robot moves; after it the last picture of the video stays until there is a new still. */
   moving: boolean;
   frames: FrameSink;
-  onSwipe?: ((swipe: Swipe, at: number) => void) | undefined;
+  onSwipe?: ((swipe: Swipe, press: Press) => void) | undefined;
 }
 
 function draw(canvas: HTMLCanvasElement | null, picture: ImageBitmap, width: number, height: number): void {

@@ -1,8 +1,16 @@
 // Good, Neutral, Bad, and that nothing can be told from the view: as buttons and as keys. One press is one click for the
 // proposal that is drawn, never for the next.
 
-import { type KeyboardEvent as ReactKeyboardEvent, useEffect, useEffectEvent } from "react";
+import {
+  type KeyboardEvent as ReactKeyboardEvent,
+  type MouseEvent as ReactMouseEvent,
+  type PointerEvent as ReactPointerEvent,
+  useEffect,
+  useEffectEvent,
+  useRef,
+} from "react";
 import { t } from "../i18n";
+import type { Press } from "../useJudging";
 import type { Value } from "../wire";
 import { dialogOpen } from "./Dialog";
 import { Cross, Dash, Eye, Tick } from "./icons";
@@ -35,7 +43,7 @@ export interface JudgeBarProps {
   /** The click on its way for the drawn proposal. */
   chosen: Value | null;
   canUndo: boolean;
-  onJudge: (value: Value, pressedAt: number) => void;
+  onJudge: (value: Value, press: Press) => void;
   onUndo: () => void;
 }
 
@@ -62,7 +70,8 @@ function useJudgeKeys(props: JudgeBarProps): void {
     if (!choice) return;
     event.preventDefault();
     // A held key repeats by itself: nobody has looked at what it would judge.
-    if (!event.repeat) props.onJudge(choice.value, event.timeStamp);
+    const at = event.timeStamp;
+    if (!event.repeat) props.onJudge(choice.value, { begun: at, ended: at });
   });
   useEffect(() => {
     const onKey = (event: KeyboardEvent) => press(event);
@@ -71,13 +80,36 @@ function useJudgeKeys(props: JudgeBarProps): void {
   }, []);
 }
 
-/** Enter held down on a focused button would click it again and again. */
-function noRepeat(event: ReactKeyboardEvent): void {
-  if (event.repeat) event.preventDefault();
+/** A button clicks when the mouse, the finger or the space bar is lifted: this remembers when it went down. */
+function useDown() {
+  const pointer = useRef<number | null>(null);
+  const key = useRef<number | null>(null);
+  return {
+    on: {
+      onPointerDown: (event: ReactPointerEvent) => {
+        pointer.current = event.timeStamp;
+      },
+      onKeyDown: (event: ReactKeyboardEvent) => {
+        // Enter held down on a focused button would click it again and again.
+        if (event.repeat) event.preventDefault();
+        else key.current = event.timeStamp;
+      },
+      onBlur: () => {
+        key.current = null; // the space bar, lifted elsewhere, clicks nothing
+      },
+    },
+    pressOf: ({ detail, timeStamp }: ReactMouseEvent): Press => {
+      const down = detail === 0 ? key : pointer; // a key's click has no count
+      const begun = down.current ?? timeStamp;
+      down.current = null;
+      return { begun, ended: timeStamp };
+    },
+  };
 }
 
 export function JudgeBar(props: JudgeBarProps) {
   useJudgeKeys(props);
+  const { on, pressOf } = useDown();
   return (
     <fieldset className="judge" aria-label={t("judge.label")} data-idle={!props.ready}>
       {CHOICES.map(({ value, testId, arrow, number, key, Icon }) => (
@@ -89,8 +121,8 @@ export function JudgeBar(props: JudgeBarProps) {
           data-chosen={props.chosen === value}
           aria-disabled={!props.ready}
           aria-keyshortcuts={`${number} ${key}`}
-          onKeyDown={noRepeat}
-          onClick={(event) => props.onJudge(value, event.timeStamp)}
+          {...on}
+          onClick={(event) => props.onJudge(value, pressOf(event))}
         >
           <Icon />
           {t(WORDS[testId])}

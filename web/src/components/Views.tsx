@@ -4,6 +4,7 @@ import { useEffect, useLayoutEffect, useRef, useSyncExternalStore } from "react"
 import type { FrameSink } from "../frames";
 import { t } from "../i18n";
 import type { ImageStore } from "../images";
+import type { Press } from "../useJudging";
 import type { Proposal } from "../wire";
 import type { Swipe } from "../zoom";
 import { CameraView } from "./CameraView";
@@ -42,7 +43,7 @@ export interface ViewsProps {
   moving: boolean;
   skill: string | null;
   empty: string;
-  onSwipe?: (swipe: Swipe, at: number) => void;
+  onSwipe?: (swipe: Swipe, press: Press) => void;
 }
 
 export function Views(props: ViewsProps) {

@@ -125,7 +125,7 @@ export function TrainerPage({ id }: { id: number }) {
               onTour={() => setTouring(true)}
             />
             <Views
-              onSwipe={(swipe, at) => judge(STROKES[swipe], at)}
+              onSwipe={(swipe, press) => judge(STROKES[swipe], press)}
               images={images}
               frames={session.frames}
               drawn={drawn}
