@@ -252,6 +252,48 @@ def test_a_phone_judges_by_strokes(page: Page, opener: Opener) -> None:
     fits(page)
     assert trainer.counters()["feedback"] == 2
 
+    # zoomed, a finger moves the picture, downwards too, and neither the page nor a judgement
+    for _ in range(2):
+        trainer.test_id("nearer-left").click()
+    page.evaluate("scrollTo(0, 40)")
+    view = trainer.test_id("view-left")
+    before = view.evaluate(BOXES)[1]["y"]
+    stroke(page, 0, 90)
+    wait_for(lambda: view.evaluate(BOXES)[1]["y"] - before > 40, "the picture to follow the finger downwards")
+    assert page.evaluate("scrollY") == 40
+    view.get_by_role("button", name="Show all of the left picture").click()
+    assert trainer.counters()["feedback"] == 2
+
+
+STANDS = """() => new Promise(done => {
+    let [last, frames] = [-1, 0];
+    const look = () => {
+        frames = scrollY === last ? frames + 1 : 0;
+        last = scrollY;
+        if (frames === 10) done(); else requestAnimationFrame(look);
+    };
+    look();
+})"""
+"""Waits until the page has come to rest: it goes on for a while when a finger that moves is lifted."""
+
+
+def test_a_phone_held_crosswise_judges_by_strokes_to_the_sides_and_scrolls_by_others(
+    page: Page, opener: Opener
+) -> None:
+    page.set_viewport_size({"width": PHONE["height"], "height": PHONE["width"]})
+    trainer = opener(preset="stubborn")
+    proposal = trainer.drawn()
+    trainer.looked_at()
+    stroke(page, 0, -100)  # to the buttons, which are below the views here
+    wait_for(lambda: page.evaluate("scrollY") > 40, "the page to follow the finger")
+    page.evaluate(STANDS)
+    page.evaluate("scrollTo(0, 0)")
+    stroke(page, -120, 0)
+    trainer.drawn(proposal)
+    (feedback,) = trainer.service.get(f"/proposals/{proposal}/feedback")["items"]
+    assert feedback["value"] == -1
+    assert trainer.counters()["feedback"] == 1
+
 
 def stroke(page: Page, across: float, up: float) -> None:
     """A finger on the left view, as the browser's own input sends it."""
