@@ -53,6 +53,10 @@ export function useZoom(
     const box = frame.current?.getBoundingClientRect();
     const before = fingers.current.get(event.pointerId);
     if (!box || !before) return;
+    if (event.pointerType === "mouse" && event.buttons === 0) {
+      fingers.current.delete(event.pointerId); // its button was let go elsewhere
+      return;
+    }
     const now = { x: event.clientX, y: event.clientY };
     const others = [...fingers.current].filter(([id]) => id !== event.pointerId).map(([, finger]) => finger);
     fingers.current.set(event.pointerId, now);
@@ -87,6 +91,7 @@ export function useZoom(
   });
 
   const onKey = useEffectEvent((event: KeyboardEvent) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return; // the browser zooms its page by them
     const steps: Record<string, [number, number]> = {
       ArrowLeft: [0.1, 0],
       ArrowRight: [-0.1, 0],
