@@ -1,7 +1,17 @@
 // Wheel, pinch, drag and double click on a view: zoom, pan, and on a touch screen strokes that judge.
 import { type RefObject, useEffect, useEffectEvent, useRef, useState } from "react";
 import type { Press } from "./useJudging";
-import { pan, type Swipe, swipeOf, WHOLE, type Zoom, zoomAt } from "./zoom";
+import {
+  forProposal,
+  pan,
+  type Share,
+  type Swipe,
+  swipeOf,
+  WHOLE,
+  type Zoom,
+  type Zoomed,
+  zoomAt,
+} from "./zoom";
 
 interface Finger {
   x: number;
@@ -10,6 +20,8 @@ interface Finger {
 
 export interface Zooming {
   zoom: Zoom;
+  /** Whether the whole picture is shown only because the chosen part of it doesn't hold what is to be judged. */
+  away: boolean;
   nearer: () => void;
   farther: () => void;
   whole: () => void;
@@ -19,12 +31,27 @@ export interface Zooming {
 
 const STEP = 1.4;
 
+/** What is to be judged: its proposal, and where its marks are. */
+export interface Sought {
+  id: number;
+  points: readonly Share[];
+}
+
 /** `onSwipe` is told of a stroke of one finger while nothing is zoomed. */
 export function useZoom(
   frame: RefObject<HTMLElement | null>,
+  sought: Sought | null,
   onSwipe?: (swipe: Swipe, press: Press) => void,
 ): Zooming {
-  const [zoom, setZoom] = useState(WHOLE);
+  const [{ zoom, kept }, setZoomed] = useState<Zoomed>({ zoom: WHOLE, kept: null });
+  const [soughtId, setSoughtId] = useState<number | null>(null);
+  // While it is drawn, not after: nobody sees a proposal out of sight, not for a frame.
+  if (sought && sought.id !== soughtId) {
+    setSoughtId(sought.id);
+    setZoomed((now) => forProposal(now, sought.points));
+  }
+  const setZoom = (next: (before: Zoom) => Zoom) =>
+    setZoomed((now) => ({ zoom: next(now.zoom), kept: null }));
   const [stroke, setStroke] = useState<Swipe | null>(null);
   const fingers = useRef(new Map<number, Finger>());
   const begun = useRef<(Finger & { at: number }) | null>(null);
@@ -101,7 +128,7 @@ export function useZoom(
     const by = event.shiftKey ? steps[event.key] : undefined;
     if (event.key === "+" || event.key === "=") setZoom((before) => zoomAt(before, STEP));
     else if (event.key === "-") setZoom((before) => zoomAt(before, 1 / STEP));
-    else if (event.key === "0") setZoom(WHOLE);
+    else if (event.key === "0") setZoom(() => WHOLE);
     else if (by) setZoom((before) => pan(before, ...by));
     else return;
     event.preventDefault();
@@ -127,9 +154,10 @@ export function useZoom(
 
   return {
     zoom,
+    away: kept !== null,
     stroke,
     nearer: () => setZoom((before) => zoomAt(before, STEP)),
     farther: () => setZoom((before) => zoomAt(before, 1 / STEP)),
-    whole: () => setZoom(WHOLE),
+    whole: () => setZoom(() => WHOLE),
   };
 }

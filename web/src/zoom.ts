@@ -27,6 +27,34 @@ export function pan(zoom: Zoom, dx: number, dy: number): Zoom {
   return within({ ...zoom, x: zoom.x + dx, y: zoom.y + dy });
 }
 
+/** A point of a picture, as shares of its width and height. */
+export type Share = readonly [x: number, y: number];
+
+/** How near to the frame's edge, as a share of it, a mark is half hidden. */
+const EDGE = 0.03;
+
+/** Whether these points are in the frame, those left out that aren't in the picture itself. */
+function inSight({ scale, x, y }: Zoom, points: readonly Share[]): boolean {
+  const within = (at: number, edge: number) => at >= edge && at <= 1 - edge;
+  return points
+    .filter(([px, py]) => within(px, 0) && within(py, 0))
+    .every(([px, py]) => within(x + px * scale, EDGE) && within(y + py * scale, EDGE));
+}
+
+/** How a picture is zoomed, and how it was chosen to be: `kept` for as long as that would hide what is to be judged. */
+export interface Zoomed {
+  zoom: Zoom;
+  kept: Zoom | null;
+}
+
+/** For a new proposal with marks at `points`: as chosen, or the whole picture where the marks would be out of sight. */
+export function forProposal({ zoom, kept }: Zoomed, points: readonly Share[]): Zoomed {
+  const chosen = kept ?? zoom;
+  return chosen.scale === 1 || inSight(chosen, points)
+    ? { zoom: chosen, kept: null }
+    : { zoom: WHOLE, kept: chosen };
+}
+
 export type Swipe = "left" | "right" | "up";
 
 const LEAST_PX = 60;

@@ -15,7 +15,7 @@ type Sent = [proposal: number, value: Value];
 /** A view whose strokes judge, as the trainer's page has it. */
 function Strokes({ onStroke }: { onStroke: (value: Value, press: Press) => void }) {
   const frame = useRef<HTMLElement>(null);
-  useZoom(frame, (swipe, press) => onStroke(swipe === "left" ? -1 : 1, press));
+  useZoom(frame, null, (swipe, press) => onStroke(swipe === "left" ? -1 : 1, press));
   return <figure ref={frame} data-testid="strokes" />;
 }
 

@@ -6,7 +6,7 @@ import { byTestId, press, show } from "./render";
 
 function View() {
   const frame = useRef<HTMLElement>(null);
-  const { zoom, nearer } = useZoom(frame);
+  const { zoom, nearer } = useZoom(frame, null);
   return (
     <figure ref={frame} data-testid="view" data-zoom={JSON.stringify(zoom)}>
       <button type="button" data-testid="nearer" onClick={nearer} />

@@ -79,4 +79,33 @@ describe("views", () => {
     expect(byTestId("views").dataset.proposalId).toBe("2");
     expect(document.querySelectorAll(".overlay").length).toBe(2);
   });
+
+  it("never leaves what is to be judged outside of a zoomed picture, and zooms again as it was chosen", async () => {
+    const { images, decode } = pictures();
+    const at = (id: number, dot: [number, number]) =>
+      proposal(id, {
+        views: proposal(id).views.map((view) => ({ ...view, overlay: { ...view.overlay, dot } })),
+      });
+    const seen = () => [
+      byTestId("view-left").dataset.zoomed,
+      document.querySelector(".chip.note")?.textContent,
+    ];
+    await show(<Page images={images} current={at(1, [320, 240])} />);
+    await decode(2);
+    for (let time = 0; time < 3; time += 1) await act(async () => byTestId("nearer-left").click());
+    expect(seen()).toEqual(["true", undefined]);
+    await show(<Page images={images} current={at(2, [10, 20])} />);
+    expect(seen()).toEqual(["false", "Whole picture: outside of what you zoomed into"]);
+    expect(byTestId("view-right").textContent).not.toContain("Whole picture");
+    await show(<Page images={images} current={at(3, [300, 250])} />);
+    expect(seen()).toEqual(["true", undefined]);
+    await show(<Page images={images} current={at(4, [10, 20])} />);
+    await act(async () => byTestId("nearer-left").click()); // chosen anew: what was kept is forgotten
+    expect(seen()).toEqual(["true", undefined]);
+    await act(async () => byTestId("nearer-left").click());
+    await show(<Page images={images} current={at(5, [320, 240])} />);
+    await act(async () => document.querySelector<HTMLElement>("[aria-label^='Show all']")?.click());
+    await show(<Page images={images} current={at(6, [10, 20])} />);
+    expect(seen()).toEqual(["false", undefined]);
+  });
 });

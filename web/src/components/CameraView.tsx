@@ -5,7 +5,7 @@ import type { FrameSink } from "../frames";
 import { cameraName, skillName, t } from "../i18n";
 import { useSettings } from "../settings";
 import type { Press } from "../useJudging";
-import { useZoom } from "../useZoom";
+import { type Sought, useZoom } from "../useZoom";
 import type { FrameHeader, View } from "../wire";
 import type { Swipe } from "../zoom";
 import { Minus, Plus, Whole } from "./icons";
@@ -66,11 +66,19 @@ function useCanvases({ view, picture, live, frames, robot }: CameraViewProps) {
   return { still, video };
 }
 
+/** Where it has to be looked at to be judged: at its place, and for a push where that ends. */
+function soughtIn({ overlay, judged, proposalId, view }: CameraViewProps): Sought | null {
+  if (!overlay || judged) return null;
+  const { dot, line, arrow } = view.overlay;
+  const points = [dot, arrow && line ? line[1] : null].filter((point) => point !== null);
+  return { id: proposalId, points: points.map(([x, y]) => [x / view.width, y / view.height]) };
+}
+
 export function CameraView(props: CameraViewProps) {
   const { view, live, overlay } = props;
   const { still, video } = useCanvases(props);
   const frame = useRef<HTMLElement>(null);
-  const { zoom, stroke, nearer, farther, whole } = useZoom(frame, props.onSwipe);
+  const { zoom, away, stroke, nearer, farther, whole } = useZoom(frame, soughtIn(props), props.onSwipe);
   const { ghost, workspace } = useSettings();
   const other = useLookedAt(props.proposalId, view.camera);
   const name = cameraName(view.camera);
@@ -113,6 +121,11 @@ export function CameraView(props: CameraViewProps) {
         {props.moving ? t("camera.live", { camera: name }) : name}
       </span>
       {overlay && !view.overlay.in_view && <span className="chip note">{t("camera.outside")}</span>}
+      {overlay && away && (
+        <span className="chip note" data-testid="zoomed-away">
+          {t("camera.zoomedAway")}
+        </span>
+      )}
       <div className="zoom">
         {zoomed && (
           <>
