@@ -108,4 +108,24 @@ describe("views", () => {
     await show(<Page images={images} current={at(6, [10, 20])} />);
     expect(seen()).toEqual(["false", undefined]);
   });
+
+  it.each([
+    ["Good", 100, 0],
+    ["Bad", -100, 0],
+    ["Neutral", 0, -100],
+  ])("says what a stroke would say before the finger is lifted: %s", async (word, across, down) => {
+    const { images, decode } = pictures();
+    await show(<Page images={images} current={proposal(1)} />);
+    await decode(2);
+    const view = byTestId("view-left");
+    const finger = { pointerId: 1, pointerType: "touch", bubbles: true };
+    const at = (clientX: number, clientY: number) => ({ ...finger, clientX, clientY });
+    const send = (type: string, where: PointerEventInit) =>
+      act(async () => view.dispatchEvent(new PointerEvent(type, where)));
+    await send("pointerdown", at(200, 200));
+    await send("pointermove", at(200 + across, 200 + down));
+    expect(view.dataset.said).toBe(word);
+    await send("pointercancel", at(200, 200));
+    expect(view.dataset.said).toBeUndefined();
+  });
 });

@@ -66,6 +66,9 @@ function useCanvases({ view, picture, live, frames, robot }: CameraViewProps) {
   return { still, video };
 }
 
+/** In words too: upwards isn't what the arrow key upwards says. */
+const SAID = { left: "judge.bad", up: "judge.neutral", right: "judge.good" } as const;
+
 /** Where it has to be looked at to be judged: at its place, and for a push where that ends. */
 function soughtIn({ overlay, judged, proposalId, view }: CameraViewProps): Sought | null {
   if (!overlay || judged) return null;
@@ -90,6 +93,7 @@ export function CameraView(props: CameraViewProps) {
       data-live={live !== null}
       data-zoomed={zoomed}
       data-stroke={stroke ?? undefined}
+      data-said={stroke ? t(SAID[stroke]) : undefined}
       style={{ aspectRatio: `${view.width} / ${view.height}` }}
       ref={frame}
     >
