@@ -16,6 +16,7 @@ describe("an undo", () => {
     Socket.newest().close(); // half-open until here: what was sent is gone
     await vi.advanceTimersByTimeAsync(500);
     Socket.newest().hear(snapshot());
+    await vi.advanceTimersByTimeAsync(0); // the clicks wait until the service has said who sits here
   };
   const refusal = (requestId: string): StreamEvent => ({
     type: "refused",
@@ -32,6 +33,7 @@ describe("an undo", () => {
     stored = feedback(1);
     vi.stubGlobal("fetch", async (path: string) => {
       if (path.includes("/feedback/1?")) return new Response(JSON.stringify(stored));
+      if (path.endsWith("/me")) return Response.json({ login: false, name: "local", role: "owner" });
       throw new TypeError("nothing else is asked for here");
     });
     told = [];
