@@ -1,14 +1,17 @@
-"""What no trainer gives but a lab does: a hidden object, a foreign checkpoint, a task changed under its labels."""
+"""What trainers seldom give but a lab does: a foreign checkpoint, a hidden object, sparse tasks, odd labels."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from agent.config import SEED, SeedSettings
 from server.schemas import Lifecycle
+from server.schemas_together import Looked
+from server.store_curves import curves
 from server.worker import CommandFailed, Worker
 from tests.agent.problems import of_task
 from tests.server.stage import PATIENCE, SMALL, Stage, stage
@@ -42,8 +45,30 @@ async def test_a_state_with_a_hole_fails_by_name_and_goes_on_once_it_is_seen(tmp
         assert all(abs(x) < 10 for x in second.state)
 
 
-async def test_a_checkpoint_of_another_task_is_told_and_the_labels_rebuild_the_learner(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def of_another_task(path: Path) -> None:
+    SEED(of_task("reaching"), SeedSettings.model_validate(SMALL), 0).save(path)
+
+
+def of_another_architecture(path: Path) -> None:
+    SEED(of_task("stacking"), SeedSettings.model_validate(SMALL | {"hidden_size": 32}), 0).save(path)
+
+
+def of_another_version(path: Path) -> None:
+    contents = bytearray(path.read_bytes())
+    contents[8] += 1  # behind the magic
+    path.write_bytes(contents)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "told"),
+    [
+        (of_another_task, "task: file has reaching, wanted stacking"),
+        (of_another_architecture, "hidden: file has [32, 32], wanted [16, 16]"),
+        (of_another_version, "has the format version 2, this program reads 1"),
+    ],
+)
+async def test_a_checkpoint_of_something_else_is_told_and_the_labels_rebuild_the_learner(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, spoil: Callable[[Path], None], told: str
 ) -> None:
     monkeypatch.setattr("server.recollection.LABELS_AT_ONCE", 1)  # as a million come, in parts
     async with stage(tmp_path) as s:
@@ -51,7 +76,7 @@ async def test_a_checkpoint_of_another_task_is_told_and_the_labels_rebuild_the_l
         await s.hub.act(experiment.id, "start", until=2)
         await s.hub.idle(experiment.id)
         [path] = sorted((tmp_path / "checkpoints" / str(experiment.id)).iterdir())
-        SEED(of_task("reaching"), SeedSettings.model_validate(SMALL), 0).save(path)
+        spoil(path)
     async with stage(tmp_path) as s:
         await s.hub.act(experiment.id, "resume", until=4)
         await s.hub.idle(experiment.id)
@@ -60,7 +85,65 @@ async def test_a_checkpoint_of_another_task_is_told_and_the_labels_rebuild_the_l
         assert (await s.store.proposals(experiment.id)).items[0].policy_version == 15
         events = (await s.store.events(experiment.id, limit=200)).items
         [unusable] = [event for event in events if event.kind == "checkpoint_unusable"]
-        assert "task: file has reaching, wanted stacking" in unusable.payload["detail"]
+        assert told in unusable.payload["detail"]
+
+
+@pytest.mark.usefixtures("plugins")
+async def test_a_task_whose_one_skill_has_no_parameters_is_judged_moved_and_charted(tmp_path: Path) -> None:
+    async with stage(tmp_path) as s:
+        experiment = await s.experiment(task="waving", lockstep=True)
+        await s.hub.act(experiment.id, "start")
+        for number, value in ((1, -1), (2, 1), (3, -1)):
+            proposal = await s.proposal(number=number)
+            assert (proposal.skill, proposal.parameters) == ("release", {})
+            assert [(view.overlay.dot, view.overlay.line) for view in proposal.views] == [(None, None)] * 2
+            await s.judge(proposal, value)
+        await s.proposal(number=4)
+        [moved] = (await s.store.executions(experiment.id)).items
+        assert (moved.skill, moved.parameters, moved.outcome) == ("release", {}, "succeeded")
+        drawn = await s.store.read(lambda session: curves(session, experiment.id, 100))
+        assert {"critic_loss", "skills", "good_share"} <= {chart.name for chart in drawn.charts}
+        assert [curve.name for chart in drawn.charts if chart.name == "skills" for curve in chart.curves] == ["release"]
+
+
+@pytest.mark.parametrize(("preset", "when_good"), [("paper_sim", 20), ("recommended", 2)])
+async def test_who_calls_everything_bad_and_then_everything_good_is_still_proposed_to(
+    tmp_path: Path, preset: str, when_good: int
+) -> None:
+    """when_good: how many proposals differ at least; `recommended` makes again what is good in this very scene."""
+    async with stage(tmp_path) as s:
+        experiment = await s.experiment(preset=preset, mode="propose_only", lockstep=True)
+        await s.hub.act(experiment.id, "start")
+        for value, different in ((-1, 20), (1, when_good)):
+            proposed = set()
+            for _ in range(30):
+                proposal = await s.proposal(number=(await s.hub.view(experiment.id)).counters.feedback + 1)
+                proposed.add(proposal.digest)
+                await s.judge(proposal, value)
+            assert len(proposed) >= different, value
+        view = await s.hub.view(experiment.id)
+        assert (view.lifecycle, view.counters.good, view.counters.bad) == (Lifecycle.RUNNING, 30, 30)
+
+
+async def test_a_label_for_the_proposal_of_an_old_policy_is_kept_and_teaches_nothing(tmp_path: Path) -> None:
+    async with stage(tmp_path) as s:
+        experiment = await s.experiment(mode="propose_only", lockstep=True)
+        await s.hub.act(experiment.id, "start")
+        old = await s.proposal()
+        given = await s.judge(old, -1)
+        new = await s.proposal(number=2)
+        assert (new.observation_id, new.policy_version) == (old.observation_id, old.policy_version + 5)
+        looked = Looked(observation_id=new.observation_id, policy_version=old.policy_version)
+        late, _ = await s.hub.feedback(new.id, s.click(1).model_copy(update={"looked": looked}))
+        assert (late.status, late.late_because) == ("late", "it was made for a proposal of another policy")
+        assert await s.store.open_proposals(experiment.id) == [new]
+        assert [label.feedback_id for label in await s.store.labels(experiment.id)] == [given.id]
+        looked = Looked(observation_id=new.observation_id, policy_version=new.policy_version)
+        await s.hub.feedback(new.id, s.click(1).model_copy(update={"looked": looked}))
+        third = await s.proposal(number=3)
+        assert third.policy_version == new.policy_version + 5, "it learned from one of the two"
+        counters = (await s.hub.view(experiment.id)).counters
+        assert (counters.feedback, counters.good, counters.bad, counters.late) == (2, 1, 1, 1)
 
 
 async def test_cuda_asked_for_where_there_is_none_is_told_with_the_setting(monkeypatch: pytest.MonkeyPatch) -> None:
