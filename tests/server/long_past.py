@@ -10,6 +10,8 @@ from collections.abc import Iterable, Iterator
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
+from robot_adapters import registry
+
 PACE = 2.0
 """Seconds between two proposals."""
 A_ROW = {"episode": 20, "evaluation": 5000}
@@ -138,15 +140,19 @@ class _Past:
     def _proposals(self) -> Iterator[dict[str, object]]:
         parameters, skills = json.loads(self._model["parameters"]), ("pick", "place")
         words = {1: "good", 0: "neutral", -1: "bad"}
+        task = self._db.execute("SELECT task FROM experiment WHERE id = ?", (self._experiment,)).fetchone()["task"]
+        bounds = {spec.name: spec.parameters for spec in registry.task(task).skills}
         for n, label in enumerate(self._labels):
             moved = [value + self._rng.gauss(0.0, 0.02) for value in parameters]
+            skill = self._rng.choices(skills, (2, 1 + n / self._count))[0]
+            moved = [min(max(value, p.low), p.high) for value, p in zip(moved, bounds[skill], strict=True)]
             yield {
                 **dict(self._model),
                 "id": self._first["proposal"] + n,
                 "episode_id": self._first["episode"] + n // A_ROW["episode"],
                 "observation_id": self._first["observation"] + n,
                 "number": self._number + 1 + n,
-                "skill": self._rng.choices(skills, (2, 1 + n / self._count))[0],
+                "skill": skill,
                 "parameters": json.dumps(moved),
                 "digest": f"{n:064x}",
                 "predicted_feedback": label * min(1.0, 0.3 + n / self._count) + self._rng.gauss(0.0, 0.3),
