@@ -118,8 +118,8 @@ def _ladder() -> Mapping[str, Ablation]:
         (
             "training",
             "+ training",
-            "20 steps a label of 1e-3 instead of 5 of 3e-3, temperatures from 0.2, two critics, 64 units, batch 128.",
-            ("learning_rate", "gradient_steps", "initial_temperature", "critics", "hidden_size", "batch_size"),
+            "20 steps a label of 1e-3 instead of 5 of 3e-3, temperatures from 0.2, 64 units, batch 128.",
+            ("learning_rate", "gradient_steps", "initial_temperature", "hidden_size", "batch_size"),
         ),
         (
             "augmentation",

@@ -87,10 +87,10 @@ class SeedSettings(BaseModel):
         Field(
             ge=1,
             le=16,
-            description="human critics; the actors follow the lowest. The paper has one H_theta; MAPLE's twins mend "
-            "the optimism of bootstrapping, which a regression on labels doesn't have",
+            description="human critics; the actors follow the lowest. The paper doesn't say how many stand for H_theta "
+            "(MAPLE: twins)",
         ),
-    ] = 1
+    ] = 2
     initial_temperature: Annotated[
         float, Field(gt=0, le=100, description="both entropy temperatures at the start (MAPLE: 1); they are learned")
     ] = 1.0
@@ -249,7 +249,6 @@ RECOMMENDED: Mapping[str, Any] = MappingProxyType(
         "batch_size": 128,
         "gradient_steps": 20,
         "hidden_size": 64,
-        "critics": 2,
         "initial_temperature": 0.2,
         "keypoints": "skill",
         "relative_critic": True,

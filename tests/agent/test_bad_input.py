@@ -166,7 +166,7 @@ def test_a_checkpoint_of_another_architecture_is_named(other: dict[str, Any], tm
 @pytest.mark.parametrize(("made_by", "read_by"), [("paper_sim", "recommended"), ("recommended", "paper_sim")])
 def test_a_checkpoint_of_another_preset_is_refused(made_by: str, read_by: str, tmp_path: Path) -> None:
     learner(of_task("stacking"), made_by).save(tmp_path / "a.ckpt")
-    with pytest.raises(CheckpointError, match="critics: file has"):
+    with pytest.raises(CheckpointError, match="keypoints: file has"):
         learner(of_task("stacking"), read_by).load(tmp_path / "a.ckpt")
 
 

@@ -37,7 +37,7 @@ def test_the_entry_point_names_the_factory() -> None:
 def test_presets_are_the_columns_of_the_papers_table(preset: str, row: tuple[float, ...]) -> None:
     s = SeedSettings(**SEED.presets[preset])
     assert (s.learning_rate, s.batch_size, s.discount, s.gradient_steps, s.train_frequency, s.affordance_penalty) == row
-    assert (s.hidden_layers, s.hidden_size) == (2, 256)
+    assert (s.hidden_layers, s.hidden_size, s.critics) == (2, 256, 2), "MAPLE's, where the paper is silent"
 
 
 @pytest.mark.parametrize("preset", ["paper_sim", "paper_real"])

@@ -1,5 +1,7 @@
 """Gradient steps per second of SEED with the paper's layers (two of 256), on one core, beside three others.
 
+SEED has one critic here, as in figure 2 of the paper; the presets have twins.
+
 - plain: the same losses in plain PyTorch: a module a network, an optimiser each, a backward each;
 - SAC: stable-baselines3's trainer, layers of equal size, which has twin critics with targets and one actor;
 - the floor: the matrix products of SEED's step and nothing else, by the very kernels SEED uses, and by plain
@@ -125,7 +127,9 @@ def _seed(counts: tuple[int, ...], batch: int) -> Callable[[], object]:
         SkillSpec(f"skill_{k}", tuple(ParameterSpec(f"p{i}", "", -1, 1) for i in range(count)))
         for k, count in enumerate(counts)
     )
-    learner = SEED(Problem("speed", -np.ones(STATE), np.ones(STATE), specs), SeedSettings(batch_size=batch), 0)
+    learner = SEED(
+        Problem("speed", -np.ones(STATE), np.ones(STATE), specs), SeedSettings(batch_size=batch, critics=1), 0
+    )
     labels = []
     for label_id in range(1, LABELS + 1):
         spec = specs[rng.integers(len(specs))]

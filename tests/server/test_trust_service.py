@@ -55,7 +55,7 @@ async def test_only_a_simulated_robot_and_an_ensemble_may_have_a_rule(live: Serv
         CONFIDENT | {"adapter": "benchtop"},
         CONFIDENT | {"settings": {"critics": 1}},
         {"algorithm": "scripted"},  # knows no critics
-        {"preset": "paper_sim"},  # has one
+        {"preset": "paper_sim", "settings": {"critics": 1}},
     ):
         told = check_problem(await live.http.post("/api/v1/experiments", json=body | changes), 422)
         assert [field.field for field in told.fields] == ["auto_approval"], changes
