@@ -74,6 +74,16 @@ ABLATIONS: Mapping[str, Ablation] = MappingProxyType(
             "What was refused in this very situation may be proposed again.",
             avoid_refused=False,
         ),
+        "locality": _without(
+            "no locality",
+            "A call near its key point, or near what was good there, has no advantage over one farther away.",
+            explore_locality=0.0,
+        ),
+        "fatigue": _without(
+            "no fatigue",
+            "A skill that was refused in this situation is as likely to be tried again there as any other.",
+            explore_fatigue=False,
+        ),
         "recall": _without("no recall", "Calls that were good before are not candidates again.", recall=0),
         "balanced_replay": _without(
             "unbalanced replay",

@@ -32,10 +32,9 @@ LOCAL_REACH = 0.125
 """How far a refusal reaches around a key point, as a share of the grounding radius."""
 KNOWN_REACH = 0.25
 """How far it reaches without one once the skill was called good, as a share of `explore_spacing`."""
-LOCALITY = 1.5
-"""What a candidate loses at the grounding radius: of calls that promise alike, the one nearer the key point is made."""
 PUSH_LOCALITY = 4.0
-"""So many times that, while no push was called good: its direction and length are looked for first, its start later."""
+"""So many times `explore_locality`, while no push was called good: its direction and length are looked for first, its
+start later."""
 FATIGUE = (0.1, 0.5)
 """What each refusal in this situation takes off all candidates of its option, so that others get their turn: of one
 that never was called good, and of one whose good calls were elsewhere, which is probably not due here."""
@@ -61,6 +60,8 @@ class Search:
     curiosity: float
     eliminate: bool
     avoid: bool
+    locality: float
+    fatigue: bool
 
 
 def search_of(settings: SeedSettings) -> Search:
@@ -74,6 +75,8 @@ def search_of(settings: SeedSettings) -> Search:
         curiosity=settings.explore_curiosity if settings.explore == "uncertainty" else 0.0,
         eliminate=settings.explore_elimination,
         avoid=settings.avoid_refused,
+        locality=settings.explore_locality,
+        fatigue=settings.explore_fatigue,
     )
 
 
@@ -131,15 +134,15 @@ class Chooser:
         parameters = _decoded(grounding, options, local, here).clamp(-1.0, 1.0) * networks.mask[options, 0]
         skills, size = grounding.option_skill[options], len(options)
         predicted = networks.predict(states.expand(size, -1), skills, parameters, here.expand(size, *here.shape[1:]))
-        score = promise(predicted, 0.0 if deterministic else search.curiosity) - _away(grounding, good, options, local)
+        score = promise(predicted, 0.0 if deterministic else search.curiosity)
+        score = score - search.locality * _away(grounding, good, options, local)
         if deterministic:
             at = int(score.argmax())
             weights = torch.zeros(size)
             weights[at] = 1.0
         else:
             score = score + search.optimism * ~promising[options]
-            if search.avoid:
-                score = score - self._lost(refused, promising, options, parameters)
+            score = score - self._lost(refused, promising, options, parameters)
             weights = torch.softmax(score / search.temperature, dim=0)
             at = int(torch.multinomial(weights, 1, generator=generator))
         probabilities = torch.zeros(networks.layout.skills).index_add_(0, skills, weights)
@@ -208,10 +211,11 @@ class Chooser:
         return parameters[self._grounding.encode(skills, parameters, keypoints)[0] == option]
 
     def _lost(self, refused: Batch, promising: Tensor, options: Tensor, parameters: Tensor) -> Tensor:
-        """`_refused`, but where elimination looks, it has heeded the refused spots already."""
-        near, tired = _refused(self._grounding, refused, self._search, promising, (options, parameters))
+        """`_refused` as far as it is wanted, but where elimination looks, it has heeded the refused spots already."""
+        search = self._search
+        near, tired = _refused(self._grounding, refused, search, promising, (options, parameters))
         looked_for = torch.tensor([o in self._eliminations and not promising[o] for o in range(len(promising))])
-        return torch.where(looked_for[options], 0.0, near) + tired
+        return search.avoid * torch.where(looked_for[options], 0.0, near) + search.fatigue * tired
 
 
 def _inner(grounding: Grounding, spacing: float) -> Tensor:
@@ -253,11 +257,11 @@ def _away(grounding: Grounding, good: tuple[Tensor, Tensor], options: Tensor, lo
     pushes = grounding.delta[grounding.option_skill[options]] >= 0
     from_keypoint = torch.where(pushes, PUSH_LOCALITY, 1.0) * from_keypoint
     if not len(good[0]):
-        return LOCALITY * from_keypoint
+        return from_keypoint
     distance = (local[:, None, :3] - good[1][None, :, :3]).norm(dim=-1)
     from_good = distance.masked_fill(options[:, None] != good[0], torch.inf).amin(dim=1)
     nearest: Tensor = torch.where(from_good.isfinite(), from_good, from_keypoint)
-    return LOCALITY * nearest
+    return nearest
 
 
 def _refused(

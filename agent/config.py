@@ -161,6 +161,22 @@ class SeedSettings(BaseModel):
             description="m around a refused spot without a key point where candidates of the same situation lose score",
         ),
     ] = 0.05
+    explore_locality: Annotated[
+        float,
+        Field(
+            ge=0,
+            le=10,
+            description="what a candidate loses a grounding radius away from its key point, or from what was good "
+            "there: of calls that promise alike, the nearest is made; four times that at a push that never was good",
+        ),
+    ] = 1.5
+    explore_fatigue: Annotated[
+        bool,
+        Field(
+            description="with `candidates`: each refusal in this very situation takes a little off every call of its "
+            "skill (and key point), so that others get their turn"
+        ),
+    ] = True
     balanced_replay: Annotated[
         bool,
         Field(
