@@ -2,7 +2,8 @@
 
 Two labels are alike if their calls do the same in what looks like the same situation: the same skill at the same key
 point, an offset within the tolerance, and alike heights and flags in the state. Where objects lie doesn't matter, for
-the key point moves with them. A label counts as its own vote and those of its likes add up to; a tie says nothing.
+the key point moves with them. At no key point the whole state must be alike, unless the skill has none: then nothing of
+the state counts. A label counts as its own vote and those of its likes add up to; a tie says nothing.
 Where trainers differ in how far they can be believed (`agent.reliability`), a vote weighs as much as its trainer.
 """
 
