@@ -32,10 +32,18 @@ from robot_adapters.franka import FrankaSettings, connecting
 from robot_adapters.franka.arm import CONTROL_HZ
 from robot_adapters.franka.backend import WORDS, ArmFault, Mode
 from robot_adapters.franka.dead_man import DeadMan
-from robot_adapters.franka.eyes import Calibrated, Hand, Sight, find_eyes, must_be_known, must_be_unmoved
+from robot_adapters.franka.eyes import (
+    Calibrated,
+    Hand,
+    Sight,
+    find_eyes,
+    must_be_known,
+    must_be_unmoved,
+    must_stand_still,
+)
 from robot_adapters.franka.faults import ended_by, violations_of
 from robot_adapters.franka.holding import gripped, holds
-from robot_adapters.franka.limits import Refused
+from robot_adapters.franka.limits import JOINT_LIMITS, Refused
 from robot_adapters.guiding import Guide
 from robot_adapters.projection import overlay
 from robot_adapters.registry import task as task_by_name
@@ -50,11 +58,6 @@ OUT_OF_THE_WAY = 0.28
 """m above the table for the grip site: at the 0.17 m of a lift, the hand (204 mm wide) hides a block that it has just
 put on another from cameras that look down at 48 degrees. Seen in renders."""
 HOME_REMEDY = "look at what is in its way and take that away, then bring it home again"
-JOINT_LIMITS = (
-    (-2.7437, 2.7437), (-1.7837, 1.7837), (-2.9007, 2.9007), (-3.0421, -0.1518),
-    (-2.8065, 2.8065), (0.5445, 4.5169), (-3.0159, 3.0159),
-)  # fmt: skip
-"""rad, of the FR3 (Franka's datasheet); a Panda's are a little narrower in joints 5 to 7, wider in 1 and 3."""
 
 
 class FrankaAdapter:
@@ -77,6 +80,8 @@ class FrankaAdapter:
         self._dead_man = DeadMan(self.arm, settings.dead_man)
         self._sight: Sight | None = None
         self._observation: Observation | None = None
+        self._stood = self.arm.pose()
+        """Where the arm was when that was made."""
         self._refusal: str | None = None
         self._grasp: tuple[Array, float] | None = None
         """Where the fingers closed last, (3,) m robot base frame and rad; None while they are open."""
@@ -114,7 +119,7 @@ class FrankaAdapter:
         self._must_be_well()
         if self._observation is None:
             self._must_see()
-            self._sight = None
+            self._sight, self._stood = None, self.arm.pose()
             scene = self._episode.scene()
             assert self._sight is not None
             must_be_known(self._sight)
@@ -334,6 +339,7 @@ class FrankaAdapter:
             now = self._look()
             must_be_known(now)
             must_be_unmoved(self._sight, now)
+            must_stand_still(self._stood, self.arm.pose())
         except Unavailable:
             self._observation = None
             raise

@@ -18,12 +18,11 @@ import numpy as np
 
 from robot_adapters.base import AdapterError, Array, EndReason, SkillCall, StopCheck, workspace
 from robot_adapters.franka import FrankaSettings, connecting
-from robot_adapters.franka.adapter import JOINT_LIMITS
 from robot_adapters.franka.arm import FrankaArm
 from robot_adapters.franka.backend import WORDS, ArmFault, FrankaBackend, Mode
 from robot_adapters.franka.dead_man import DeadMan
 from robot_adapters.franka.eyes import Hand, find_eyes
-from robot_adapters.franka.limits import OUT_OF_REACH, SHOULDER, Limits, Refused
+from robot_adapters.franka.limits import JOINT_LIMITS, OUT_OF_REACH, SHOULDER, Limits, Refused
 from robot_adapters.registry import task as task_by_name
 from robot_adapters.skills import TRANSIT_CLEARANCE, run_skill
 from robot_adapters.tasks.base import Task

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from importlib.metadata import entry_points
@@ -18,6 +19,8 @@ from robot_adapters.guiding import Guide
 EYES = "seed.eyes"
 STIRRED = 0.010
 """m by which nothing may have moved between the picture that was judged and the motion: fingers forgive 12 mm."""
+TURNED = 0.05
+"""rad, likewise, of the hand: as exact as a skill turns it before a descent."""
 
 
 @dataclass(frozen=True)
@@ -78,6 +81,23 @@ def must_be_unmoved(then: Sight, now: Sight) -> None:
     if farthest and away[farthest] > STIRRED:
         raise Unavailable(
             f"{farthest} was moved by {away[farthest] * 1000:.0f} mm since the picture was taken",
+            remedy="judge a new proposal",
+        )
+
+
+def must_stand_still(then: tuple[Array, float], now: tuple[Array, float]) -> None:
+    """See that the arm is where it was: the way that was judged begins there, and may keep the hand's angle.
+
+    then, now: its grip site, (3,) m, and its yaw, rad.
+
+    Raises:
+        Unavailable: somebody has guided it elsewhere.
+    """
+    away, turned = float(np.linalg.norm(now[0] - then[0])), abs(math.remainder(now[1] - then[1], 2 * math.pi))
+    if away > STIRRED or turned > TURNED:
+        raise Unavailable(
+            f"the arm was moved by {away * 1000:.0f} mm and turned by {math.degrees(turned):.0f} degrees since the "
+            "picture was taken",
             remedy="judge a new proposal",
         )
 

@@ -16,6 +16,11 @@ OUT_OF_REACH = 0.855
 """m from the shoulder (Franka's datasheet): beyond, the arm can't follow."""
 SHOULDER = np.array([0.0, 0.0, 0.333])
 """(3,) m, robot base frame."""
+JOINT_LIMITS = (
+    (-2.7437, 2.7437), (-1.7837, 1.7837), (-2.9007, 2.9007), (-3.0421, -0.1518),
+    (-2.8065, 2.8065), (0.5445, 4.5169), (-3.0159, 3.0159),
+)  # fmt: skip
+"""rad, of the FR3 (Franka's datasheet); a Panda's are a little narrower in joints 5 to 7, wider in 1 and 3."""
 SIDEWAYS = 0.004
 """m to the side per set-point below which a motion downwards counts as an approach."""
 

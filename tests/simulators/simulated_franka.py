@@ -258,6 +258,14 @@ class Lab:
         """Somebody pushes the hand: x, y, z in N, base frame, and for how many s."""
         self.push, self.push_until = np.array(how[:3]), self.clock + round(1000 * how[3])
 
+    def do_guide(self, turned: list[float]) -> None:
+        """Somebody turns the arm's joints by hand while nothing drives it, by so many rad each."""
+        joints = [float(q) for q in self.data.qpos[self.robot._qpos_addrs] + np.array(turned)]
+        for address, q in zip(self.robot._qpos_addrs, joints, strict=True):
+            self.data.qpos[address] = q
+        mujoco.mj_forward(self.sim.model, self.data)
+        self.server._FrankaRobotServer__holding_q = tuple(joints)
+
     def do_fingers(self, width: float) -> None:
         """Somebody moves the fingers by hand: m between them."""
         self.robot.set_hand_goal(width, 0.05, 70.0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from robot_adapters.base import EndReason, InvalidCall, SkillCall, SkillResult
+from robot_adapters.base import EndReason, InvalidCall, SkillCall, SkillResult, Unavailable
 from robot_adapters.franka.adapter import FrankaAdapter
 from tests.robot_adapters.franka.conftest import APART, Build, errors, never, nothing
 from tests.simulators.franka import SimulatedFranka
@@ -60,3 +60,27 @@ def test_bad_calls_move_nothing(build: Build, arm: SimulatedFranka) -> None:
             run(adapter, bad)
     assert np.allclose(arm.truth()["tip"], before, atol=1e-4)
     assert adapter.observe().id == seen.id
+
+
+@pytest.mark.parametrize(
+    ("turned", "told"),
+    [
+        ([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.15], "turned by 9 degrees"),
+        ([0.08, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], "the arm was moved by 2. mm"),
+    ],
+)
+def test_an_arm_that_was_guided_elsewhere_while_a_proposal_waited_moves_nowhere(
+    turned: list[float], told: str, build: Build, arm: SimulatedFranka
+) -> None:
+    adapter = build()
+    seen = adapter.reset()
+    assert adapter.observe() is seen
+    arm.tell(guide=turned)
+    before = arm.truth()["tip"]
+    call = SkillCall("place", (0.65, 0.10, APART["block_a"][2] + 0.1))
+    with pytest.raises(Unavailable, match=told):
+        run(adapter, call)
+    assert np.allclose(arm.truth()["tip"], before, atol=1e-3)
+    again = adapter.observe()
+    assert again.id != seen.id
+    assert run(adapter, call).end is EndReason.ARRIVED
