@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from robot_adapters.base import (
+    AdapterError,
     AdapterInfo,
     Array,
     CameraFrame,
@@ -256,7 +257,7 @@ class FrankaAdapter:
 
     def refresh(self) -> None:
         """Look at arm and cameras while nothing is asked of them, so that what they tell of themselves is so."""
-        self._refusal = self._eyes.refusal()
+        self._refusal = self._why_not()
         try:
             self.arm.look()
         except ArmFault as fault:
@@ -326,8 +327,15 @@ class FrankaAdapter:
             why = f" ({', '.join(state.errors)})" if state.errors else ""
             raise Unavailable(f"the arm is in state {state.mode}{why}", remedy=WORDS[state.mode])
 
+    def _why_not(self) -> str | None:
+        """Why nothing may be proposed whatever is seen; eyes that can't even say are a reason too."""
+        try:
+            return self._eyes.refusal()
+        except AdapterError as error:
+            return str(error)
+
     def _must_see(self) -> None:
-        self._refusal = self._eyes.refusal()
+        self._refusal = self._why_not()
         if self._refusal is not None:
             raise Unavailable(self._refusal, remedy="put that right, or calibrate the cameras again, then resume")
 

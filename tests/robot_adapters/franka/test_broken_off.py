@@ -148,6 +148,18 @@ def test_an_arm_double_that_is_driven_while_a_stop_is_latched_is_stopped(
     wait_for(idle, "the worker to look at the arm again")
 
 
+def test_eyes_that_break_at_rest_refuse_at_a_double_and_end_no_worker(
+    worker: StillWorker, arm_double: StillArm, eyes_double: StillEyes
+) -> None:
+    eyes_double.broken = True
+    worker.robot.refresh()
+    told = worker.robot.adapter.telemetry()  # type: ignore[attr-defined]
+    assert "calibration can't be read" in told.calibration_detail
+    with pytest.raises(Unavailable, match="calibration can't be read"):
+        worker.robot.observe()
+    assert not arm_double.orders
+
+
 def sent(worker: StillWorker) -> Iterator[tuple[dict[str, dict[str, str]], bytes]]:
     """What the worker has sent for the page, header and picture."""
     worker.frames.setblocking(False)
