@@ -36,6 +36,7 @@ def driving(settings: FrankaSettings) -> Driving:
         force=settings.force,
         reflex=settings.reflex,
         silence=max(SILENCE, settings.dead_man),
+        dead_man=settings.dead_man,
     )
 
 

@@ -7,6 +7,7 @@ second) and 5558 (the hand's). What is on them is `deoxys.proto`; `deoxys_pb2.py
 from __future__ import annotations
 
 import contextlib
+import logging
 import math
 import threading
 import time
@@ -18,6 +19,8 @@ from robot_adapters.base import Array, Unavailable
 from robot_adapters.franka.backend import WORDS, ArmFault, ArmState, Facts, Goal, HandState, Mode
 from robot_adapters.franka.driving import Driving
 from robot_adapters.franka.fingers import GRASP_FORCE, SPEED, WIDEST
+
+log = logging.getLogger(__name__)
 
 ARM_COMMANDS, ARM_STATES, HAND_COMMANDS, HAND_STATES = 5555, 5556, 5557, 5558
 AGAIN = 0.05
@@ -67,6 +70,9 @@ class Deoxys:
         self._hand_states = self._connected(HAND_STATES)
         self._sending = threading.Lock()
         self._command: bytes | None = None
+        self._alive_at = 0.0
+        """When whoever drives the arm looked at it last, or sent something."""
+        self._forceless = False
         self._state: Any = None
         self._heard_at = time.monotonic()
         self._width: float | None = None
@@ -82,6 +88,11 @@ class Deoxys:
             if time.monotonic() > until:
                 self._context.destroy(linger=0)
                 heard = "the arm but not its hand" if self._state is not None else "nothing"
+                if self._forceless:
+                    raise Unavailable(
+                        f"Deoxys on {driving.host} doesn't tell the force at the hand, without which no limit holds",
+                        remedy="run a Deoxys there whose states carry O_F_ext_hat_K",
+                    )
                 raise Unavailable(
                     f"Deoxys on {driving.host} tells {heard}", remedy="start its arm and gripper programs there"
                 )
@@ -93,6 +104,7 @@ class Deoxys:
 
     def state(self) -> ArmState:
         """See `FrankaBackend`."""
+        self._live()
         self._hear(0.0)
         if self._unheard():
             self._hear(ONCE_MORE)
@@ -107,7 +119,7 @@ class Deoxys:
             pose[:3, :3],
             np.array(raw.q),
             np.array(raw.dq),
-            np.array(raw.O_F_ext_hat_K[:3] or (0.0, 0.0, 0.0)),
+            np.array(raw.O_F_ext_hat_K[:3]),
             known.get(raw.robot_mode, Mode.USER_STOPPED),
         )
 
@@ -224,7 +236,8 @@ class Deoxys:
                 message = self._messages.FrankaRobotStateMessage.FromString(
                     self._arm_states.recv(flags=self._zmq.NOBLOCK)
                 )
-                if len(message.O_T_EE) == 16 and len(message.q) == 7:
+                self._forceless = len(message.O_F_ext_hat_K) < 3
+                if len(message.O_T_EE) == 16 and len(message.q) == 7 and not self._forceless:
                     self._state, self._heard_at = message, time.monotonic()
         with contextlib.suppress(self._zmq.Again):
             while True:
@@ -247,21 +260,43 @@ class Deoxys:
         serialised: bytes = command.SerializeToString()
         return serialised
 
-    def _send(self, command: bytes | None) -> None:
+    def _send(self, command: bytes) -> None:
         with self._sending:
-            self._command = command
-            if command is not None:
+            if self._must_be_alive():
+                self._alive_at = time.monotonic()
+                self._command = command
                 self._arm.send(command)
 
+    def _live(self) -> None:
+        """Whoever drives the arm looks at it; too late, and the arm is stopped instead."""
+        with self._sending:
+            self._must_be_alive()
+            self._alive_at = time.monotonic()
+
+    def _must_be_alive(self) -> bool:
+        """Stop the arm, with the lock held, where nobody has driven it for too long: all of this may have been frozen.
+
+        What was to be sent then is of before; the dead-man timer, which was frozen too, ends the motion.
+        """
+        if self._command is None or time.monotonic() - self._alive_at <= self._driving.dead_man:
+            return True
+        log.error("nobody has driven the arm for %.1f s: it is stopped", self._driving.dead_man)
+        self._say_terminated()
+        return False
+
     def _terminate(self) -> None:
-        """Tell Deoxys to stop the arm where it is, more than once: nobody acknowledges."""
+        """Tell Deoxys to stop the arm where it is."""
         self._joints = None
+        with self._sending:
+            self._say_terminated()
+
+    def _say_terminated(self) -> None:
+        """With the lock held, and more than once: nobody acknowledges."""
         command = self._messages.FrankaControlMessage(termination=True, timeout=TIMEOUT)
         command.control_msg.Pack(self._messages.FrankaDummyControllerMessage(termination=True))
-        with self._sending:
-            self._command = None
-            for _ in range(3):
-                self._arm.send(command.SerializeToString())
+        self._command = None
+        for _ in range(3):
+            self._arm.send(command.SerializeToString())
 
     def _ask_hand(self, what: Any) -> None:
         self._asked_at = time.monotonic()
@@ -274,8 +309,8 @@ class Deoxys:
             self._fingers.send(command.SerializeToString())
 
     def _repeat(self) -> None:
-        """Say the newest goal again while fingers move and no new one comes; the dead-man timer ends that too."""
+        """Say the newest goal again while fingers move and no new one comes, as long as somebody looks at the arm."""
         while not self._closed.wait(AGAIN):
             with self._sending:
-                if self._command is not None:
+                if self._must_be_alive() and self._command is not None:
                     self._arm.send(self._command)

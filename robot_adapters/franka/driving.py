@@ -18,7 +18,8 @@ class Driving:
     host: of the control box (deoxys: of the arm's computer). bind: address of this PC that Deoxys listens to. realtime:
     refuse to run without a real-time kernel. stiffness: N/m. force: N at the hand at which a motion ends. reflex: N at
     the hand at which the robot stops itself. leash: m that the goal may be ahead. homing_fraction: of each joint's own
-    limits, on the way home. silence: s without a new state after which the arm counts as gone.
+    limits, on the way home. silence: s without a new state after which the arm counts as gone. dead_man: s without a
+    sign of life of whoever drives, after which a backend that repeats goals stops by itself.
     """
 
     host: str
@@ -33,6 +34,7 @@ class Driving:
     reflex: float = 45.0
     homing_fraction: float = 0.15
     silence: float = 0.5
+    dead_man: float = 0.6
 
     def collision_behaviour(self) -> tuple[list[float], list[float], list[float], list[float]]:
         """Lower and upper torques (7,) Nm, lower and upper forces (6,) N and Nm."""

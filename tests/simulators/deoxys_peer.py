@@ -37,6 +37,8 @@ class DeoxysPeer:
         self.terminations = 0
         self.hand_stops = 0
         self.silent = self.hand_silent = False
+        self.forceless = False
+        """Whether its states say nothing of forces."""
         self.jammed = False
         """Whether the fingers stay where they are, whatever they are told."""
         self.timed_out = False
@@ -136,7 +138,7 @@ class DeoxysPeer:
         state.O_T_EE.extend(pose.T.ravel().tolist())
         state.q.extend(self.joints.tolist())
         state.dq.extend([0.0] * 7)
-        state.O_F_ext_hat_K.extend([0.0] * 6)
+        state.O_F_ext_hat_K.extend([] if self.forceless else [0.0] * 6)
         state.time.toSec = self._clock
         self._states.send(state.SerializeToString())
         if not self.hand_silent:

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import importlib.util
+import json
+import os
+import signal
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -14,16 +18,23 @@ import pytest
 from robot_adapters import registry
 from robot_adapters.base import EndReason, SkillCall, Unavailable
 from robot_adapters.franka import FrankaSettings, connecting, deoxys_pb2
+from robot_adapters.franka.adapter import FrankaAdapter
 from robot_adapters.franka.arm import FrankaArm
 from robot_adapters.franka.backend import ArmFault, FingersFault, Mode
 from robot_adapters.skills import run_skill
 from tests.live import wait_for
 from tests.robot_adapters.franka.conftest import TABLE, never, nothing
 from tests.simulators.deoxys_peer import HOME, DeoxysPeer
-from tests.simulators.franka import free_host
+from tests.simulators.driver import FROZEN
+from tests.simulators.franka import ROOT, free_host
+from tests.simulators.session import UNHURRIED
+from tests.simulators.still_worker import StillEyes
 
 PROTO = Path(str(deoxys_pb2.__file__)).with_name("deoxys.proto")
 TASK = registry.task("stacking")
+PATIENT = 1.0
+"""s of the dead-man timer, and of silence after which arm and hand are gone."""
+AWAY = SkillCall("place", (0.65, 0.10, TABLE + 0.10))
 PICK = SkillCall("pick", (0.55, 0.05, TABLE + 0.02))
 
 
@@ -42,7 +53,8 @@ def peer(hosts: tuple[str, str]) -> Iterator[DeoxysPeer]:
 @pytest.fixture
 def arm(hosts: tuple[str, str], peer: DeoxysPeer) -> Iterator[FrankaArm]:
     host, pc = hosts
-    connected = connecting.arm(FrankaSettings(host=host, deoxys_bind=pc, backend="deoxys"), TASK)
+    settings = FrankaSettings(host=host, deoxys_bind=pc, backend="deoxys", dead_man=PATIENT)
+    connected = connecting.arm(settings, TASK)
     yield connected
     connected.backend.close()
 
@@ -139,6 +151,90 @@ def test_a_reflex_is_told_with_what_helps(arm: FrankaArm, peer: DeoxysPeer) -> N
         arm.recover()
     assert "restart" in refused.value.remedy
     assert not peer.goals
+
+
+@pytest.fixture
+def adapter(hosts: tuple[str, str], peer: DeoxysPeer, monkeypatch: pytest.MonkeyPatch) -> Iterator[FrankaAdapter]:
+    """The whole adapter, with a double for cameras."""
+    monkeypatch.setattr("robot_adapters.franka.adapter.find_eyes", lambda _: lambda *_: StillEyes())
+    settings = FrankaSettings(host=hosts[0], deoxys_bind=hosts[1], backend="deoxys", dead_man=UNHURRIED)
+    made = FrankaAdapter("stacking", settings)
+    yield made
+    made.close()
+
+
+@pytest.mark.parametrize(
+    ("what", "end", "kind"),
+    [("Reflex", EndReason.FORCE_LIMIT, "damage"), ("UserStopped", EndReason.STOPPED, "manual_reset")],
+)
+def test_a_reflex_or_a_pressed_button_in_the_middle_of_a_motion_ends_it_for_good(
+    what: str, end: EndReason, kind: str, adapter: FrankaAdapter, peer: DeoxysPeer
+) -> None:
+    adapter.reset()
+    steps = 0
+
+    def count() -> None:
+        nonlocal steps
+        steps += 1
+        if steps == 10:
+            peer.mode = getattr(deoxys_pb2.FrankaRobotStateMessage, what)
+
+    result = adapter.execute(AWAY, should_stop=never, on_step=count)
+    assert result.end is end
+    assert [v.kind for v in result.violations] == [kind]
+    wait_for(lambda: peer.terminations, "the end to be told")
+    asked, stood = len(peer.goals), peer.position.copy()
+    with pytest.raises(Unavailable):
+        adapter.execute(AWAY, should_stop=never, on_step=nothing)
+    peer.mode = deoxys_pb2.FrankaRobotStateMessage.Idle
+    wait_for(lambda: adapter.arm.look().mode is Mode.IDLE, "the arm to be well again")
+    assert len(peer.goals) == asked  # it doesn't go on by itself
+    assert np.array_equal(peer.position, stood)
+    adapter.reset()
+    assert adapter.execute(AWAY, should_stop=never, on_step=nothing).end is EndReason.ARRIVED
+
+
+def test_a_goal_is_not_repeated_for_nobody(hosts: tuple[str, str], peer: DeoxysPeer) -> None:
+    settings = FrankaSettings(host=hosts[0], deoxys_bind=hosts[1], backend="deoxys", dead_man=0.5)
+    arm = connecting.arm(settings, TASK)
+    try:
+        for _ in range(3):  # the first may come before the other side listens
+            arm.step(HOME + np.array([0.02, 0.0, 0.0]), 0.0, False)
+        wait_for(lambda: peer.goals, "a goal")
+        # and nobody looks at the arm any more
+        wait_for(lambda: peer.terminations, "the arm to be stopped")
+        assert not peer.timed_out
+    finally:
+        arm.backend.close()
+
+
+def test_a_process_that_was_frozen_ends_its_motion(hosts: tuple[str, str], peer: DeoxysPeer, tmp_path: Path) -> None:
+    said = tmp_path / "said"
+    command = [sys.executable, "-m", "tests.simulators.driver", hosts[0], "deoxys", hosts[1]]
+    with said.open("w") as told, subprocess.Popen(command, cwd=ROOT, stdout=told) as driver:
+        try:
+            wait_for(lambda: said.read_text() or driver.poll() is not None, "the arm to move", 60)
+            os.kill(driver.pid, signal.SIGSTOP)
+            frozen = time.monotonic()
+            wait_for(lambda: time.monotonic() - frozen > FROZEN + 0.5, "more than the dead-man timer's time")
+            asked, stood = len(peer.goals), peer.position.copy()
+            os.kill(driver.pid, signal.SIGCONT)
+            assert driver.wait(60) == 0
+        finally:
+            driver.kill()
+    found = json.loads(said.read_text().splitlines()[-1])
+    assert found["mode"] == "stopped"
+    wait_for(lambda: peer.terminations, "the end to be told")
+    assert len(peer.goals) - asked <= 1  # one may have been on its way when it was frozen
+    assert np.linalg.norm(peer.position - stood) < 0.01
+
+
+def test_states_without_forces_are_refused_with_a_remedy(hosts: tuple[str, str], peer: DeoxysPeer) -> None:
+    peer.forceless = True
+    settings = FrankaSettings(host=hosts[0], deoxys_bind=hosts[1], backend="deoxys")
+    with pytest.raises(Unavailable, match="force at the hand") as refused:
+        connecting.arm(settings, TASK)
+    assert "O_F_ext_hat_K" in refused.value.remedy
 
 
 def test_nobody_on_the_other_side_is_told(hosts: tuple[str, str]) -> None:
