@@ -1,11 +1,12 @@
 // Every closed proposal as a picture, narrowed by what was said of it and what came of it; each leads into its episode.
 
-import { useCallback, useEffect, useState } from "react";
+import { useCallback, useEffect, useRef, useState } from "react";
 import { ExperimentTabs } from "../components/ExperimentTabs";
 import { GalleryItem } from "../components/GalleryItem";
 import { GalleryTools } from "../components/GalleryTools";
 import { Header } from "../components/Header";
 import { Sprout } from "../components/icons";
+import { ProblemBanner } from "../components/ProblemBanner";
 import { ProblemCard } from "../components/ProblemCard";
 import { StatePill } from "../components/StatePill";
 import { Timeline } from "../components/Timeline";
@@ -25,8 +26,14 @@ interface Shown {
 function useGallery(id: number, narrowed: string) {
   const [shown, setShown] = useState<Shown | null>(null);
   const [problem, setProblem] = useState<Problem | null>(null);
+  const [busy, setBusy] = useState(false);
+  const asked = useRef<symbol | null>(null);
   const load = useCallback(
-    async (before: Shown | null, current: () => boolean) => {
+    async (before: Shown | null) => {
+      const question = Symbol();
+      const current = () => asked.current === question;
+      asked.current = question;
+      setBusy(true);
       try {
         const page = await http.told(id, narrowed, before?.cursor ?? null);
         if (!current()) return;
@@ -35,18 +42,19 @@ function useGallery(id: number, narrowed: string) {
         setProblem(null);
       } catch (error) {
         if (current()) setProblem(http.problemOf(error));
+      } finally {
+        if (current()) setBusy(false);
       }
     },
     [id, narrowed],
   );
   useEffect(() => {
-    let gone = false;
-    void load(null, () => !gone);
+    void load(null);
     return () => {
-      gone = true;
+      asked.current = null; // what is still on its way was asked for something else
     };
   }, [load]);
-  return { shown, problem, more: () => void load(shown, () => true) };
+  return { shown, problem, busy, more: () => void load(shown?.narrowed === narrowed ? shown : null) };
 }
 
 function useExperiment(id: number): Experiment | null {
@@ -69,7 +77,7 @@ function Empty({ narrowed }: { narrowed: boolean }) {
 
 export function GalleryPage({ id }: { id: number }) {
   const narrowed = narrowedIn(useSearch());
-  const { shown, problem, more } = useGallery(id, narrowed.toString());
+  const { shown, problem, busy, more } = useGallery(id, narrowed.toString());
   const experiment = useExperiment(id);
   const task = useTask(experiment?.task);
   useEffect(() => {
@@ -100,8 +108,9 @@ export function GalleryPage({ id }: { id: number }) {
             <GalleryItem key={entry.proposal.id} id={id} entry={entry} />
           ))}
         </ul>
-        {shown?.cursor && (
-          <button type="button" className="button quiet" onClick={more} data-testid="more">
+        {problem && <ProblemBanner problem={problem} onRetry={more} />}
+        {shown?.cursor && !problem && (
+          <button type="button" className="button quiet" disabled={busy} onClick={more} data-testid="more">
             {t("common.showMore")}
           </button>
         )}
