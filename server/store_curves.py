@@ -12,7 +12,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from sqlalchemy import ColumnElement, Integer, case, cast, exists, extract, func, select
+from sqlalchemy import ColumnElement, case, exists, extract, func, select
 from sqlalchemy.orm import Session
 
 from server.models import (
@@ -30,7 +30,7 @@ from server.store_experiments import load
 LEAST = 10
 """Rows of a bucket: a share of fewer says little."""
 LEAST_TIMED = 20
-"""Labels of a bucket whose speed is told: times are known to the second."""
+"""Labels of a bucket whose speed is told: SQLite tells times to the second only."""
 PAUSE = 60
 """Seconds without a label after which a trainer is taken to have paused; such a gap is no part of the speed."""
 
@@ -264,11 +264,12 @@ def _throughput(session: Session, experiment: ExperimentRow, points: int) -> Cha
         select(
             func.max(each.c.n),
             func.sum(case((worked, 1), else_=0)),
-            func.sum(case((worked, cast(each.c.gap, Integer)), else_=0)),
+            func.sum(case((worked, each.c.gap), else_=0)),
         )
         .group_by(bucket)
         .order_by(bucket)
     )
-    found = [(float(n), 60.0 * count / seconds) for n, count, seconds in session.execute(query) if seconds]
+    # PostgreSQL answers with decimals, and knows the fractions of a second that SQLite's gaps have lost
+    found = [(float(n), 60.0 * count / float(seconds)) for n, count, seconds in session.execute(query) if seconds]
     curve = Curve(name="throughput", x=[n for n, _ in found], y=[speed for _, speed in found])
     return Chart(name="throughput", axis="feedback", curves=[curve] if found else [])

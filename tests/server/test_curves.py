@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import csv
 import json
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import pytest
+from sqlalchemy import create_engine, select, update
 
 from server import comparing, store_curves
+from server.models import FeedbackRow
 from server.schemas import ExecutionOutcome, ExperimentUpdate
 from server.schemas_curves import Chart, Curves
 from server.store import NotFound, Store
@@ -73,6 +76,26 @@ async def test_few_points_leave_the_database_and_the_newest_is_among_them(sqlite
     line = chart(await curves(sqlite_store, experiment, 20), "successes").curves[0]
     assert len(line.x) <= 21
     assert (line.x[-1], line.y[-1]) == (205, 102)
+
+
+@pytest.mark.parametrize("gap", [0.4, 1.5])
+async def test_the_speed_of_labels_that_come_within_fractions_of_a_second(store: Store, url: str, gap: float) -> None:
+    experiment = await running(store)
+    for number in range(61):
+        proposal = await opened(store, experiment, f"o{number}")
+        await store.submit_feedback(proposal.id, click(-1))
+    start = datetime(2026, 1, 1, tzinfo=UTC)
+    engine = create_engine(url)
+    with engine.begin() as connection:
+        rows = connection.scalars(select(FeedbackRow.id).order_by(FeedbackRow.id)).all()
+        for number, row in enumerate(rows):
+            at = start + timedelta(seconds=gap * number)
+            connection.execute(update(FeedbackRow).where(FeedbackRow.id == row).values(received_at=at))
+    engine.dispose()
+    (line,) = chart(await curves(store, experiment), "throughput").curves
+    assert line.x[:3] == [20, 40, 60]
+    # twenty labels take 8 s at least, and a database that knows whole seconds is off by less than one
+    assert line.y[:3] == pytest.approx([60 / gap] * 3, rel=0.16)
 
 
 async def test_evaluations_stand_at_the_steps_trained_before_them(store: Store) -> None:
