@@ -350,6 +350,8 @@ class Adapter(Protocol):
 
         Raises:
             InvalidCall: the call doesn't fit the task. Nothing has moved.
+            AdapterError: it can't run now; or, once `should_stop` was asked, it broke off, and nothing drives the robot
+                any more.
         """
 
     def overlays(self, call: SkillCall) -> Mapping[str, CameraOverlay]:

@@ -45,9 +45,14 @@ class FrankaSettings(BaseModel):
     force: float = Field(25.0, gt=0.0, le=80.0, description="N at the hand at which a skill ends.")
     reflex: float = Field(45.0, gt=0.0, le=100.0, description="N at the hand at which the robot stops itself.")
     dead_man: float = Field(
-        0.6, ge=0.1, le=10.0, description="s without a set-point, or without word of the operator, until the arm stops."
+        0.6, ge=0.1, le=10.0, description="s for which a motion doesn't ask whether to stop, until the arm is stopped."
     )
-    jpeg_quality: int = Field(90, ge=30, le=100, description="JPEG quality of the images that trainers judge.")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _as_stored(cls, given: Any) -> Any:
+        """Experiments of before name a `jpeg_quality`, which was never read: that of the eyes counts."""
+        return {k: v for k, v in given.items() if k != "jpeg_quality"} if isinstance(given, dict) else given
 
     @model_validator(mode="after")
     def _possible(self) -> FrankaSettings:

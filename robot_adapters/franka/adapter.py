@@ -134,7 +134,8 @@ class FrankaAdapter:
 
         Raises:
             InvalidCall: the call doesn't fit the task. Nothing has moved.
-            Unavailable: the arm can't be used now, or what is seen isn't what was judged. The arm hasn't moved.
+            Unavailable: the arm can't be used now, or what is seen isn't what was judged: the arm hasn't moved then. Or
+                the eyes failed after the motion had begun. Whatever is raised, the arm is halted before.
         """
         spec = check_call(call, self._task.skills)
         self._must_be_well()

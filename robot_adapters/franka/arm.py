@@ -72,8 +72,6 @@ class FrankaArm:
         self._overload: str | None = None
         self.should_stop: Callable[[], bool] = lambda: False
         self.while_waiting: Callable[[], None] = lambda: None
-        self.last_set_point_at = 0.0
-        """CLOCK_MONOTONIC of the newest set-point; a dead-man timer looks at it from another thread."""
 
     # the Arm of skills.py, in the task's frame
 
@@ -96,7 +94,6 @@ class FrankaArm:
             ArmFault: the arm has stopped itself, was stopped, or is gone; or the fingers didn't move as they were told.
             Refused: the set-point isn't within the limits.
         """
-        self.last_set_point_at = time.monotonic()
         if self.should_stop():
             self.halt()
             return

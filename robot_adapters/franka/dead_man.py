@@ -1,4 +1,4 @@
-"""Stops the arm when nobody drives it any more: no set-point, or no word of the operator, for too long."""
+"""Stops the arm when nobody drives it any more: what moves it hasn't asked whether to stop for too long."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LOOK = 0.05
 
 
 class DeadMan:
-    """Watches the set-points of a motion from a thread of its own. It can only stop."""
+    """Watches that a motion lives, from a thread of its own. It can only stop."""
 
     def __init__(self, arm: FrankaArm, patience: float) -> None:
         """Watch `arm`. patience: s without a look at `should_stop`, by which a motion that lives is known."""
@@ -55,6 +55,6 @@ class DeadMan:
 
     def _check(self) -> None:
         if self._moving and not self._fired and time.monotonic() - self._alive > self._patience:
-            log.error("no set-point for %.1f s: the arm is stopped", self._patience)
+            log.error("the motion hasn't asked whether to stop for %.1f s: the arm is stopped", self._patience)
             self._fired = True
             self._arm.backend.halt()

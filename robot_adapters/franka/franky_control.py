@@ -42,7 +42,6 @@ class Franky:
         self._driver = franky
         self._driving = driving
         self._motion: Any = None
-        self._homing = False
         realtime = franky.RealtimeConfig.Enforce if driving.realtime else franky.RealtimeConfig.Ignore
         modes = franky.RobotMode
         self._modes = {
@@ -143,7 +142,7 @@ class Franky:
         with self._starting():
             motion = self._driver.JointMotion(joints, relative_dynamics_factor=self._driving.homing_fraction)
             self._robot.move(motion, asynchronous=True)
-            self._motion, self._homing = motion, True
+            self._motion = motion
 
     def joints_arrived(self) -> bool:
         """See `FrankaBackend`."""

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from pydantic import ValidationError
 
 from robot_adapters import registry
 
@@ -100,3 +101,11 @@ def test_what_cannot_be_loaded_is_known_with_its_reason(tmp_path: Path, monkeypa
     with pytest.raises(registry.UnknownName, match="no_such_module"):
         registry.task("absent")
     assert registry.task("stacking").name == "stacking"
+
+
+def test_an_experiment_of_before_opens_although_a_setting_of_its_arm_is_gone() -> None:
+    settings = registry.adapter("franka").settings
+    stored = settings.model_validate({"host": "172.16.0.9", "jpeg_quality": 80})
+    assert stored.model_dump()["host"] == "172.16.0.9"
+    with pytest.raises(ValidationError, match="jpeg_qualities"):
+        settings.model_validate({"jpeg_qualities": 80})

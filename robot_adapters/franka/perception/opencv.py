@@ -27,7 +27,8 @@ class Captured:
 
     def read(self) -> Picture:
         """See `Camera`."""
-        # what was taken while nobody read waits in the driver: it is no newer than this
+        # what was taken while nobody read waits in the driver: it is no newer than this. It may well be older where it
+        # came over a network, through buffers that nobody here knows: docs/franka-cameras.md
         taken_at = time.time()
         there, image = self._capture.read()
         if not there:

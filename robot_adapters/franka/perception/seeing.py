@@ -47,7 +47,6 @@ class _Eye:
     standing: Standing
     stamp: float
     """When the calibration's file was written."""
-    openings: int = 0
     picture: Picture | None = None
 
 

@@ -28,8 +28,6 @@ class Watch:
             Unavailable: it can't be had.
         """
         self.name = name
-        self.openings = 1
-        """How often it was opened: one that was away may have been moved meanwhile."""
         self._silence = silence
         self._open = opener
         self._camera = opener()
@@ -122,5 +120,4 @@ class Watch:
         while not self._closing.wait(AGAIN):
             with contextlib.suppress(AdapterError, RuntimeError, OSError):
                 self._camera = self._open()
-                self.openings += 1
                 return
