@@ -95,8 +95,8 @@ describe("views", () => {
     for (let time = 0; time < 3; time += 1) await act(async () => byTestId("nearer-left").click());
     expect(seen()).toEqual(["true", undefined]);
     await show(<Page images={images} current={at(2, [10, 20])} />);
-    expect(seen()).toEqual(["false", "Whole picture: outside of what you zoomed into"]);
-    expect(byTestId("view-right").textContent).not.toContain("Whole picture");
+    expect(seen()).toEqual(["false", "Outside your zoom: shown whole"]);
+    expect(byTestId("view-right").textContent).not.toContain("Outside");
     await show(<Page images={images} current={at(3, [300, 250])} />);
     expect(seen()).toEqual(["true", undefined]);
     await show(<Page images={images} current={at(4, [10, 20])} />);
