@@ -168,6 +168,7 @@ describe("judging what was looked at", () => {
     await DOWN.mouse("bad");
     await DOWN["space bar"]("bad");
     await send(new FocusEvent("focusout", { bubbles: true }), byTestId("bad"));
+    await send(new KeyboardEvent("keydown", { key: "g", bubbles: true }), byTestId("bad"));
     await drawn(2, sent);
     await pass(LOOK_MS);
     await clickOn("bad", 0);

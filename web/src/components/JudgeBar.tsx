@@ -92,7 +92,7 @@ function useDown() {
       onKeyDown: (event: ReactKeyboardEvent) => {
         // Enter held down on a focused button would click it again and again.
         if (event.repeat) event.preventDefault();
-        else key.current = event.timeStamp;
+        else if (event.key === " " || event.key === "Enter") key.current = event.timeStamp;
       },
       onBlur: () => {
         key.current = null; // the space bar, lifted elsewhere, clicks nothing
