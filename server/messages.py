@@ -5,7 +5,7 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, StrictBool
 
 from server.schemas import (
     Evaluation,
@@ -227,7 +227,7 @@ class Refused(Event):
 
 
 class Pong(Event):
-    """Answer to a ping."""
+    """Answer to a ping; without one: say something, nothing was heard of you for a while."""
 
     type: Literal["pong"] = "pong"
 
@@ -323,6 +323,10 @@ class ClientPing(Wire):
     """Are you there?"""
 
     type: Literal["ping"]
+    regular: Annotated[
+        StrictBool,
+        Field(description="I say something at least every five seconds from now on, and am gone where I don't"),
+    ] = False
 
 
 ClientMessage = Annotated[

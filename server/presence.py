@@ -6,7 +6,6 @@ Two tabs of one person are one person. Someone whose access ends is cut off here
 from __future__ import annotations
 
 import asyncio
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -22,8 +21,8 @@ class Visit:
     who: Principal
     experiment_id: int
     since: datetime
-    heard_at: float = field(default_factory=time.monotonic)
-    """When this client last said anything, by the monotonic clock; a page of ours says something every 3 s."""
+    silence: float = 0.0
+    """Seconds for which its network has been dead when that was noticed; see `server.stream`."""
     cut: asyncio.Event = field(default_factory=asyncio.Event)
     """Set when their access has ended: the stream is closed at once."""
 
@@ -34,8 +33,6 @@ class Present:
 
     who: Principal
     since: datetime
-    heard_at: float
-    """Monotonic time of the newest sign of life."""
     streams: int
 
 
@@ -80,7 +77,6 @@ class Presence:
             Present(
                 who=tabs[-1].who,
                 since=min(tab.since for tab in tabs),
-                heard_at=max(tab.heard_at for tab in tabs),
                 streams=len(tabs),
             )
             for tabs in together.values()

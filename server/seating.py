@@ -125,14 +125,17 @@ class Seating:
         seat.left, seat.looked, seat.away, seat.counts = None, self._clock(), False, counts
         self._settle(arrived=True)
 
-    def depart(self, trainer: str) -> None:
-        """One of their pages is closed: what they have goes back, and after a while they are waited for no longer."""
+    def depart(self, trainer: str, *, ago: float = 0.0) -> None:
+        """One of their pages is closed: what they have goes back, and after a while they are waited for no longer.
+
+        ago: seconds since it was, where it could be noticed only now.
+        """
         seat = self._seats.get(trainer)
         if seat is None or not seat.connections:
             return
         seat.connections -= 1
         if not seat.connections:
-            seat.left = self._clock()
+            seat.left = self._clock() - ago
             if seat.finishing is None:  # else it is nobody else's, and they may be back in a moment
                 seat.away, seat.proposal = True, None
             self._settle()

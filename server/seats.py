@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
+from server.presence import Visit
 from server.publisher import Publisher
 from server.schemas import Next
 from server.seating import Seating
@@ -26,7 +27,7 @@ class Seats:
         return self._seatings[experiment_id]
 
     @asynccontextmanager
-    async def seated(self, experiment_id: int, trainer: str | None) -> AsyncIterator[None]:
+    async def seated(self, experiment_id: int, trainer: str | None, visit: Visit) -> AsyncIterator[None]:
         """A page of this trainer's is open; None: somebody only watches.
 
         Raises:
@@ -41,7 +42,7 @@ class Seats:
         try:
             yield
         finally:
-            seating.depart(trainer)
+            seating.depart(trainer, ago=visit.silence)
 
     async def look(self, experiment_id: int, trainer: str) -> Next:
         """They look at what they have before them, or want something to look at.

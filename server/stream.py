@@ -11,7 +11,6 @@ import asyncio
 import contextlib
 import json
 import struct
-import time
 from collections import defaultdict, deque
 from collections.abc import Callable, Coroutine, Iterator
 from contextlib import contextmanager
@@ -22,6 +21,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from server.backlog import Backlog
 from server.errors import ServiceError, problem, problem_of
+from server.heartbeat import Heartbeat
 from server.hub import Hub
 from server.messages import (
     Acknowledged,
@@ -52,6 +52,8 @@ TRY_AGAIN_LATER = 1013
 POLICY_VIOLATION = 1008
 SIGNED_OUT = 4401
 """Close code of a stream whose viewer's access has ended; 4000 and up are an application's own."""
+SILENT = 4408
+"""Close code of a stream whose viewer has stopped saying that it is there."""
 RUBBISH_LIMIT = 20
 """Unreadable messages after which a viewer is disconnected; a page of ours sends none."""
 HASTE_LIMIT = 200
@@ -60,6 +62,8 @@ INBOX_LIMIT = 64
 """Messages of one viewer that may wait for the store."""
 FAREWELL_SECONDS = 30.0
 """How long a close frame may wait for a viewer that has stopped reading."""
+NO_FAREWELL_SECONDS = 0.5
+"""The same for one that is gone: its seat and its part in a quorum wait for this."""
 
 Pace = Callable[[Principal], None]
 Request = ClientFeedback | ClientRelabel | ClientUndo
@@ -209,10 +213,14 @@ class Connection:
         self._pace = pace
         self._rubbish = 0
         self._haste = 0
+        self._heartbeat = Heartbeat(lambda: self._answer(Pong()))
 
     async def serve(self) -> None:
         """Run until either side ends."""
-        lives = (self._send(), self._receive(), self._work(), self._outbox.overflow(), self._cut_off())
+        lives = (
+            *(self._send(), self._receive(), self._work()),
+            *(self._outbox.overflow(), self._cut_off(), self._silence()),
+        )
         parts = [asyncio.create_task(part) for part in lives]
         try:
             done, _ = await asyncio.wait(parts, return_when=asyncio.FIRST_COMPLETED)
@@ -223,6 +231,8 @@ class Connection:
         await asyncio.gather(*parts, *self._going, return_exceptions=True)
         if self._visit.cut.is_set():
             await self._close(SIGNED_OUT, "your access has ended")
+        elif self._visit.silence:
+            await self._close(SILENT, "nothing was heard of you: reconnect", NO_FAREWELL_SECONDS)
         elif self._outbox.overflowed:
             await self._close(TRY_AGAIN_LATER, "too slow: reconnect for a snapshot")
         elif self._rubbish >= RUBBISH_LIMIT:
@@ -236,6 +246,9 @@ class Connection:
 
     async def _cut_off(self) -> None:
         await self._visit.cut.wait()
+
+    async def _silence(self) -> None:
+        self._visit.silence = await self._heartbeat.lost()
 
     async def _send(self) -> None:
         while True:
@@ -262,7 +275,7 @@ class Connection:
             first = error.errors(include_input=False, include_url=False)[0]
             self._refuse_rubbish(".".join([*map(str, first["loc"]), first["msg"]]), _request_id(text))
             return
-        self._visit.heard_at = time.monotonic()
+        self._heartbeat.heard(regular=isinstance(message, ClientPing) and message.regular)
         refused = refusal(self._who, message.type) or self._too_fast(message)
         if refused is not None:
             self._answer(Refused(request_id=_request_id(text), problem=refused))
@@ -362,10 +375,10 @@ class Connection:
     def _answer(self, event: Acknowledged | Refused | Pong) -> None:
         self._outbox.event(Telling(event).to(self._outbox.reader))
 
-    async def _close(self, code: int, reason: str) -> None:
+    async def _close(self, code: int, reason: str, patience: float = FAREWELL_SECONDS) -> None:
         # the close frame stands behind what the viewer hasn't read
         with contextlib.suppress(TimeoutError, RuntimeError, WebSocketDisconnect):
-            await asyncio.wait_for(self._socket.close(code, reason), FAREWELL_SECONDS)
+            await asyncio.wait_for(self._socket.close(code, reason), patience)
 
 
 def _id_of(message: Request) -> str:

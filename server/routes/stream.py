@@ -53,7 +53,7 @@ async def stream(socket: WebSocket, experiment_id: str, boot_id: str = "", since
         pace = service.doors.pace
         connection = Connection(socket, outbox, service.hub, service.store, visit, pace=pace, trainer=seat)
         try:
-            async with service.hub.seats.seated(watched, seat):
+            async with service.hub.seats.seated(watched, seat, visit):
                 if missed is None:
                     snapshot = await service.hub.snapshot(watched, socket.app.state.boot_id, seat)
                     first = [Telling(snapshot.model_copy(update={"seq": newest})).to(hears)]

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -17,7 +19,7 @@ VANISH = 1.0
 
 @pytest.fixture
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveService]:
-    """One that finds a dead connection within seconds; by default it takes 20 to 40."""
+    """One that finds a dead connection within two seconds, by the protocol's pings."""
     live = LiveService(tmp_path_factory.mktemp("offline") / "data", SEED_PING_INTERVAL="1")
     live.start()
     yield live
@@ -73,6 +75,44 @@ def test_who_has_vanished_clicks_on_and_each_click_is_stored_once_when_the_netwo
     finally:
         context.close()
         cable.close()
+
+
+@pytest.mark.long
+def test_thirty_seconds_off_line_with_the_settings_that_everybody_has(
+    browser: Browser, browser_context_args: dict[str, Any], tmp_path: Path
+) -> None:
+    service = LiveService(tmp_path / "data")
+    service.start()
+    experiment = service.experiment(adapter="kinematic", preset="stubborn", aggregation="majority")
+    cable = Cable(service.port)
+    context = browser.new_context(**browser_context_args | {"base_url": cable.url})
+    context.add_init_script("localStorage.setItem('seed.trainer', 'bob')")
+    try:
+        bob = TrainerPage(context.new_page(), service, experiment)
+        bob.page.goto(f"{cable.url}{bob.path}")
+        bob.connected()
+        service.post(f"{bob.path}/start")
+        first = bob.drawn()
+        bob.looked_at()
+        cable.pull()
+        pulled = time.monotonic()
+        bob.disconnected()
+        bob.press(-1)
+        expect(bob.connection).to_contain_text(ONE_KEPT)
+        wait_for(lambda: _people(service, bob) == [], "the service to notice", START_MS / 1000)
+        noticed = time.monotonic() - pulled
+        _vanished(service, bob)
+        wait_for(lambda: time.monotonic() > pulled + 30, "thirty seconds to be over", 60)
+        cable.plug_in()
+        bob.connected()
+        wait_for(lambda: _rows(service, bob) == [(first, "bob", "stored")], "the click, once")
+        assert bob.drawn(first) > first
+        print(f"noticed after {noticed:.1f} s")
+    finally:
+        context.close()
+        cable.close()
+        service.sweep()
+        service.http.close()
 
 
 def _open(service: LiveService, page: TrainerPage, count: int) -> set[int] | None:

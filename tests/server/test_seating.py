@@ -156,6 +156,11 @@ async def test_who_leaves_gives_it_back_at_once_and_is_waited_for_a_while() -> N
     room.seats.depart("ann")
     room.later(10)
     assert (room.vanished, room.seats.names) == (["ann"], ["bob"])
+    room.seats.depart("bob", ago=7)  # nobody was told when
+    room.later(2)
+    assert room.vanished == ["ann"]
+    room.later(1)
+    assert room.vanished == ["ann", "bob"]
 
 
 async def test_without_a_page_every_sign_of_life_is_a_seat_for_a_while() -> None:

@@ -2128,7 +2128,7 @@ export interface webhooks {
         put?: never;
         /**
          * Event pong
-         * @description Answer to a ping.
+         * @description Answer to a ping; without one: say something, nothing was heard of you for a while.
          */
         post: operations["event_pong"];
         delete?: never;
@@ -2574,6 +2574,12 @@ export interface components {
              * @enum {string}
              */
             type: "ping";
+            /**
+             * Regular
+             * @description I say something at least every five seconds from now on, and am gone where I don't
+             * @default false
+             */
+            regular: boolean;
         };
         /**
          * ClientRelabel
@@ -4484,7 +4490,7 @@ export interface components {
         Phase: "idle" | "starting" | "observing" | "proposing" | "awaiting_feedback" | "deciding" | "executing" | "learning" | "evaluating";
         /**
          * Pong
-         * @description Answer to a ping.
+         * @description Answer to a ping; without one: say something, nothing was heard of you for a while.
          */
         Pong: {
             /**

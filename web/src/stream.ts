@@ -32,6 +32,7 @@ export class Stream {
   private heartbeat: ReturnType<typeof setInterval> | undefined;
   /** Since when an answer is owed: a hidden tab's timers sleep, so silence alone proves nothing. */
   private owedSince: number | null = null;
+  private saidAt = 0;
   private closed = false;
   /** Where to go on after a break: the service's run, and the number of the last event heard in it. */
   private heard: { bootId: string; seq: number } | null = null;
@@ -66,6 +67,7 @@ export class Stream {
   send(message: ClientMessage): boolean {
     if (this.socket?.readyState !== WebSocket.OPEN) return false;
     this.socket.send(JSON.stringify(message));
+    this.saidAt = Date.now();
     return true;
   }
 
@@ -99,6 +101,8 @@ export class Stream {
       return;
     }
     const event = JSON.parse(data) as StreamEvent;
+    // While a hidden page's heartbeat sleeps the service asks by this, and would let it go without an answer.
+    if (event.type === "pong" && Date.now() - this.saidAt > PING_MS) this.ping();
     if (event.type === "snapshot") this.heard = { bootId: event.boot_id, seq: event.seq ?? 0 };
     else if (event.type !== "resumed" && event.seq && this.heard) this.heard.seq = event.seq;
     if (event.type === "snapshot" || event.type === "resumed") {
@@ -106,6 +110,7 @@ export class Stream {
       this.wait = FIRST_WAIT_MS;
       this.handlers.onEvent(event);
       this.handlers.onConnection("open");
+      this.ping(); // so that the service soon finds out where the network dies from now on
     } else {
       this.handlers.onEvent(event);
     }
@@ -160,6 +165,6 @@ export class Stream {
   };
 
   private ping(): void {
-    if (this.send({ type: "ping" })) this.owedSince ??= Date.now();
+    if (this.send({ type: "ping", regular: true })) this.owedSince ??= Date.now();
   }
 }

@@ -3,6 +3,9 @@ import { type Connection, Stream } from "../src/stream";
 import { snapshot } from "./messages";
 import { Socket } from "./socket";
 
+/** Said at once when a page is in step, and again and again after that. */
+const BEAT = '{"type":"ping","regular":true}';
+
 describe("stream", () => {
   let states: Connection[];
   let stream: Stream;
@@ -65,12 +68,23 @@ describe("stream", () => {
 
   it("leaves a connection alone that answers, however late its timers ring", () => {
     Socket.newest().accept();
+    Socket.newest().onmessage?.({ data: '{"type":"pong"}' });
     for (let minute = 0; minute < 5; minute += 1) {
       vi.setSystemTime(Date.now() + 60_000); // a hidden tab: the clock goes on, the timer sleeps
       vi.advanceTimersByTime(3000);
       Socket.newest().onmessage?.({ data: '{"type":"pong"}' });
     }
     expect(Socket.made.length).toBe(1);
+  });
+
+  it("answers a service that asks whether it is there, while its timers sleep, and chats with none", () => {
+    const socket = Socket.newest();
+    socket.accept();
+    expect(socket.sent).toEqual([BEAT]);
+    vi.setSystemTime(Date.now() + 4000);
+    socket.onmessage?.({ data: '{"type":"pong"}' });
+    socket.onmessage?.({ data: '{"type":"pong"}' });
+    expect(socket.sent).toEqual([BEAT, BEAT]);
   });
 
   it("gives up on a silent connection", () => {
@@ -83,12 +97,12 @@ describe("stream", () => {
     const socket = Socket.newest();
     socket.accept();
     socket.onmessage?.({ data: new ArrayBuffer(2) });
-    expect(socket.sent).toEqual(['{"type":"frame_ack"}']);
+    expect(socket.sent).toEqual([BEAT, '{"type":"frame_ack"}']);
   });
 
   it("says when a message can't leave", () => {
-    expect(stream.send({ type: "ping" })).toBe(false);
+    expect(stream.send({ type: "ping", regular: false })).toBe(false);
     Socket.newest().accept();
-    expect(stream.send({ type: "ping" })).toBe(true);
+    expect(stream.send({ type: "ping", regular: false })).toBe(true);
   });
 });
