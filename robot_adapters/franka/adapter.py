@@ -44,7 +44,7 @@ from robot_adapters.franka.eyes import (
 )
 from robot_adapters.franka.faults import ended_by, violations_of
 from robot_adapters.franka.holding import gripped, holds
-from robot_adapters.franka.limits import JOINT_LIMITS, Refused
+from robot_adapters.franka.limits import Refused, joint_limits
 from robot_adapters.guiding import Guide
 from robot_adapters.projection import overlay
 from robot_adapters.registry import task as task_by_name
@@ -89,6 +89,7 @@ class FrankaAdapter:
         self._episode = Episode(self._task, self._scene)
         self._shift = np.array(connecting.offset(settings, self._task))
         facts = self.arm.backend.facts()
+        self._joint_limits = joint_limits(facts.fci)
         self.info = AdapterInfo(
             name="franka",
             simulated=False,
@@ -246,7 +247,7 @@ class FrankaAdapter:
         fx, fy, fz = (float(v) for v in state.force)
         return Telemetry(
             joints=tuple(float(q) for q in state.joints),
-            joint_limits=JOINT_LIMITS,
+            joint_limits=self._joint_limits,
             gripper=(x, y, z),
             opening=self.arm.gripper_width(),
             force=(fx, fy, fz),

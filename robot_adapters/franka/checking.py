@@ -22,7 +22,7 @@ from robot_adapters.franka.arm import FrankaArm
 from robot_adapters.franka.backend import WORDS, ArmFault, FrankaBackend, Mode
 from robot_adapters.franka.dead_man import DeadMan
 from robot_adapters.franka.eyes import Hand, find_eyes
-from robot_adapters.franka.limits import JOINT_LIMITS, OUT_OF_REACH, SHOULDER, Limits, Refused
+from robot_adapters.franka.limits import OUT_OF_REACH, SHOULDER, Limits, Refused, joint_limits
 from robot_adapters.registry import task as task_by_name
 from robot_adapters.skills import TRANSIT_CLEARANCE, run_skill
 from robot_adapters.tasks.base import Task
@@ -179,10 +179,14 @@ def _hand(backend: FrankaBackend) -> Finding:
 
 def _limits(backend: FrankaBackend, limits: Limits, settings: FrankaSettings, task: Task) -> Iterator[Finding]:
     state = backend.state()
+    left = [
+        min(at - low, high - at)
+        for at, (low, high) in zip(state.joints, joint_limits(backend.facts().fci), strict=True)
+    ]
     near = [
-        f"joint {i + 1} is {np.degrees(min(at - low, high - at)):.0f}° from its limit"
-        for i, (at, (low, high)) in enumerate(zip(state.joints, JOINT_LIMITS, strict=True))
-        if min(at - low, high - at) < NEAR_LIMIT
+        f"joint {number} is {np.degrees(abs(rad)):.0f}° {'from' if rad > 0 else 'beyond'} its limit"
+        for number, rad in enumerate(left, start=1)
+        if rad < NEAR_LIMIT
     ]
     if near:
         yield Finding(
@@ -206,9 +210,10 @@ def _limits(backend: FrankaBackend, limits: Limits, settings: FrankaSettings, ta
         f"at most {settings.speed:g} m/s, and "
         f"{limits.approach_speed:g} m/s within {100 * limits.approach:.0f} cm of the table",
     )
-    yield Finding(
-        "force", Verdict.GOOD, f"a skill ends at {settings.force:g} N; the robot stops itself at {settings.reflex:g} N"
-    )
+    itself = f"the robot stops itself at {settings.reflex:g} N"
+    if settings.backend == "deoxys":
+        itself = "where the robot stops itself is set on the arm's computer, in Deoxys's own configuration"
+    yield Finding("force", Verdict.GOOD, f"a skill, or the way home, ends at {settings.force:g} N; {itself}")
     if state.newtons > settings.force / 2:
         said = f"{state.newtons:.0f} N although nothing moves"
         remedy = "set the hand's mass in Desk, and take away what leans on the arm"

@@ -16,13 +16,27 @@ OUT_OF_REACH = 0.855
 """m from the shoulder (Franka's datasheet): beyond, the arm can't follow."""
 SHOULDER = np.array([0.0, 0.0, 0.333])
 """(3,) m, robot base frame."""
-JOINT_LIMITS = (
+JointLimits = tuple[tuple[float, float], ...]
+"""Lowest and highest of each of the seven joints, rad."""
+PANDA: JointLimits = (
+    (-2.8973, 2.8973), (-1.7628, 1.7628), (-2.8973, 2.8973), (-3.0718, -0.0698),
+    (-2.8973, 2.8973), (-0.0175, 3.7525), (-2.8973, 2.8973),
+)  # fmt: skip
+"""Franka's documentation of its control parameters, as is the next."""
+FR3: JointLimits = (
     (-2.7437, 2.7437), (-1.7837, 1.7837), (-2.9007, 2.9007), (-3.0421, -0.1518),
     (-2.8065, 2.8065), (0.5445, 4.5169), (-3.0159, 3.0159),
 )  # fmt: skip
-"""rad, of the FR3 (Franka's datasheet); a Panda's are a little narrower in joints 5 to 7, wider in 1 and 3."""
 SIDEWAYS = 0.004
 """m to the side per set-point below which a motion downwards counts as an approach."""
+
+
+def joint_limits(fci: int | None) -> JointLimits:
+    """Of the arm that speaks this version of the interface: 5 is a Panda, 10 an FR3. Else what is free for both."""
+    known = {5: PANDA, 10: FR3}
+    if fci in known:
+        return known[fci]
+    return tuple((max(a[0], b[0]), min(a[1], b[1])) for a, b in zip(PANDA, FR3, strict=True))
 
 
 class Refused(AdapterError):
