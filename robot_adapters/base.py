@@ -38,6 +38,14 @@ class Unavailable(AdapterError):
     """The robot, the simulator or its graphics can't be had on this machine."""
 
 
+class SceneUnclear(Unavailable):
+    """What is to be acted on can't be seen well enough. Nothing moves until somebody has put that right."""
+
+
+class SceneChanged(SceneUnclear):
+    """The scene isn't any more as the picture shows it that was judged."""
+
+
 @dataclass(frozen=True)
 class ParameterSpec:
     """One parameter of a skill with its bounds (inclusive), e.g. `x` from 0.31 to 0.81 m."""
@@ -268,7 +276,9 @@ class Telemetry:
     joints: (n,) rad, base to wrist. joint_limits: lowest and highest of each, rad. gripper: (3,) m, grip site, base
     frame. opening: m between the fingers. force: (3,) N, at the hand, in its own frame. calibration: `exact` where the
     cameras are computed, `measured` where they were calibrated, `missing` where overlays can't be trusted.
-    calibration_detail: when and how well, in words. mode: what a real arm is doing. words: the same for a trainer.
+    calibration_detail: when and how well, in words. scene: whether it is as the newest observation shows it, None where
+    nobody looks again; unclear where that can't be told. scene_detail: why not, in words for the trainer. mode: what a
+    real arm is doing. words: the same for a trainer.
     """
 
     joints: tuple[float, ...] = ()
@@ -278,6 +288,8 @@ class Telemetry:
     force: tuple[float, float, float] | None = None
     calibration: Literal["exact", "measured", "missing"] | None = None
     calibration_detail: str = ""
+    scene: Literal["clear", "changed", "unclear"] | None = None
+    scene_detail: str = ""
     mode: Literal["idle", "moving", "reflex", "user_stopped", "disconnected"] | None = None
     words: str = ""
 

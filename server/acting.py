@@ -112,6 +112,7 @@ class Acting:
             operator_present=self._crew.operator_present,
             simulated=self.simulated,
             workspace_ok=self._inside(self.call_of(proposal)),
+            unclear=self._robot.unclear,
         )
         self._publish(ProposalClosed(proposal=proposal.model_copy(update={"gate": decision})))
         return execution

@@ -146,12 +146,12 @@ class Desk:
         self._ledger.refresh()
 
     async def verdict(self, leave: asyncio.Event) -> Proposal | None:
-        """Wait until one is judged, or more are to be opened; the one that waits for the gate, or one that it won't.
+        """Wait until one is judged, or others are to be opened; the one that waits for the gate, or one that it won't.
 
         Raises:
             WorkerDied: a worker went away while this waited.
         """
-        while not self.judged and self._open and not self.missing and not leave.is_set():
+        while not (self.judged or self.missing or leave.is_set() or self._robot.outdated) and self._open:
             self._news.clear()
             if not await self._news_or_death(self._left()):
                 # to its end, also where this robot's wait is broken off because another one has died
@@ -183,7 +183,7 @@ class Desk:
         clicked = self._open.get(proposal_id)
         refused = self._seating.why_not(body.trainer, clicked) if clicked is not None and kind == "person" else None
         ahead = None
-        if clicked is not None and refused is None and self._ends(body):
+        if clicked is not None and refused is None and self._ends(body) and not self._robot.unclear:
             ahead = self.ahead.take({proposal.observation_id for proposal in self._open.values()})
         had = kind == "person" and self._seating.proposal_of(body.trainer) == proposal_id
         storing = self._store.submit_feedback(proposal_id, body, kind=kind, refused=refused, had=had)

@@ -21,11 +21,13 @@ def decide(
     operator_present: bool,
     workspace_ok: bool,
     observation_current: bool,
+    unclear: str,
 ) -> GateDecision:
     """The decision for a training proposal; the reason names the first thing that keeps the gate shut.
 
     rule_stands: the votes still add up to good by the experiment's rule, which may have changed since the verdict.
     by_critic: the verdict is the critic's own. auto_approval: the rule by which it approved still holds.
+    unclear: why the robot can't see now that the scene is as it was judged; empty where it can, or doesn't look.
     gold: it measured its trainers, and its answer was known; the reason doesn't give that away.
     """
     if halted:
@@ -46,6 +48,8 @@ def decide(
         return _shut(f"the experiment is {lifecycle.value}")
     if not simulated and not operator_present:
         return _shut("a real robot needs an operator present")
+    if unclear:
+        return _shut(unclear)
     return _world(workspace_ok, observation_current)
 
 

@@ -20,6 +20,8 @@ from server.schemas_views import Overlay
 from server.settings import Settings
 from server.worker import Worker, WorkerDied
 
+UNCLEAR = {"SceneUnclear", "SceneChanged"}
+"""What the worker calls it where it can't see what it has to: people put that right, and nothing has failed."""
 KEEP_ALIVE = 0.1
 """Seconds between two words to a real robot's worker that an operator attends it."""
 
@@ -73,6 +75,17 @@ class Robot:
             robot=index,
             on_frame=self._take_frame,
         )
+
+    @property
+    def unclear(self) -> str:
+        """Why it can't see that the scene is as its newest picture shows it; empty where it can, or doesn't look."""
+        told = self.telemetry
+        return "" if told is None or told.scene in {None, "clear"} else told.scene_detail
+
+    @property
+    def outdated(self) -> bool:
+        """Whether something is elsewhere by now than on its newest picture."""
+        return self.telemetry is not None and self.telemetry.scene == "changed"
 
     async def reset(self, seed: int) -> Seen:
         """Start an episode."""

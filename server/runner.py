@@ -22,7 +22,7 @@ from server.crew import Crew
 from server.images import Images
 from server.ledger import Ledger
 from server.lifecycle import Verb
-from server.messages import AttendanceChanged, FrameHeader, StreamEvent
+from server.messages import AttendanceChanged, FrameHeader, RobotTold, StreamEvent
 from server.principal import SERVICE, acting
 from server.publisher import Publisher
 from server.quota import Quota
@@ -64,7 +64,7 @@ class Runner:
             settings,
             on_frame=self._show if publisher.shows_frames else None,
             on_change=self._publish,
-            on_told=self._publish,
+            on_told=self._hear,
             attendance=self.attendance,
         )
         self.standing = Standing(experiment, store, self.crew, publish=self._publish)
@@ -380,6 +380,11 @@ class Runner:
     @property
     def _first(self) -> Station:
         return self.stations[0]
+
+    def _hear(self, told: RobotTold) -> None:
+        self._publish(told)
+        if told.telemetry.scene == "changed":
+            self._wake()  # what is judged there is of yesterday
 
     def _wake(self) -> None:
         for station in self.stations:

@@ -22,6 +22,11 @@ class Telemetry(BaseModel):
         Field(description="of the cameras: computed, calibrated, or not to be trusted"),
     ] = None
     calibration_detail: Annotated[str, Field(description="when and how well, in words")] = ""
+    scene: Annotated[
+        Literal["clear", "changed", "unclear"] | None,
+        Field(description="whether it is as the newest picture shows it; null where nobody looks again"),
+    ] = None
+    scene_detail: Annotated[str, Field(description="why it isn't, in words that a trainer understands")] = ""
     mode: Annotated[
         Literal["idle", "moving", "reflex", "user_stopped", "disconnected"] | None,
         Field(description="what a real arm is doing; null for a simulated one"),

@@ -15,20 +15,23 @@ from server.desk import Desk
 from server.judging import Judge
 from server.ledger import Ledger
 from server.quota import Quota
-from server.robots import Robot
+from server.robots import UNCLEAR, Robot
 from server.schemas import CloseReason, Execution, Experiment, Phase, Proposal
 from server.seating import Seating
 from server.seeds import episode_seed
 from server.standing import Standing
-from server.store import Store
+from server.store import Conflict, Store
 from server.store_values import EpisodeOutcome, NewProposal
 from server.violations import Response, respond
+from server.waiting import news_or_death
 from server.witness import Witness
-from server.worker import WorkerDied
+from server.worker import CommandFailed, WorkerDied
 
 AskOperator = Callable[[Literal["halt", "pause"], Sequence[str]], Awaitable[None]]
 
 
+LOOK_AGAIN = 1.0
+"""s from one attempt to see the scene to the next, where people still have to put something right."""
 AHEAD = 2
 """Proposals drawn ahead where trainers judge in parallel: two of them may click before the next are drawn."""
 
@@ -138,14 +141,22 @@ class Station:
                 await self._store.begin_episode(self.experiment.id, seed, robot=self.robot.index)
         self._episode_open, self._executed, self._start = True, 0, seed
 
-    async def look(self) -> Seen:
-        """What the robot sees now: of a new episode, or of the one that goes on."""
-        if self._start is not None:
-            seed, self._start = self._start, None
-            self._seen = await self.robot.reset(seed)
-        elif self._seen is None:
+    async def look(self, leave: asyncio.Event) -> Seen:
+        """What the robot sees now: of a new episode, or of the one that goes on. Waits until it sees all it has to.
+
+        Raises:
+            Conflict: the loop is to end before that.
+        """
+        while self._seen is None or self._start is not None:
             self.enter(Phase.OBSERVING)
-            self._seen = await self.robot.observe()
+            try:
+                self._seen = await (self.robot.observe() if self._start is None else self.robot.reset(self._start))
+                self._start = None
+            except CommandFailed as refusal:
+                if refusal.kind not in UNCLEAR:
+                    raise
+                if await news_or_death(leave, self.robot.post.death(), seconds=LOOK_AGAIN):
+                    raise Conflict(str(refusal), remedy=refusal.remedy) from refusal
         return self._seen
 
     async def propose(self, seen: Seen) -> None:
@@ -155,7 +166,13 @@ class Station:
             return
         if not self.desk.opened:
             self.enter(Phase.PROPOSING)
-        drawn = await self.acting.draw_batch(seen, missing, self.desk.calls)
+        try:
+            drawn = await self.acting.draw_batch(seen, missing, self.desk.calls)
+        except CommandFailed as refusal:
+            if refusal.kind not in UNCLEAR:
+                raise
+            self.forget()  # `look` waits until it is clear again
+            return
         for each in drawn:
             if not self.desk.judged:  # one was approved meanwhile: this one would be closed at once
                 await self.desk.present(each)
@@ -183,7 +200,12 @@ class Station:
                 await self.judge.judge(asked, self.acting.call_of(asked), leave)
             elif not self.experiment.lockstep:
                 self.desk.ahead.draw(lambda: asyncio.create_task(self._draw_ahead(seen)))
-        return await self.desk.verdict(leave)
+        judged = await self.desk.verdict(leave)
+        if judged is None and self.robot.outdated and not leave.is_set():
+            await self.desk.withdraw()
+            self.desk.ahead.forget()
+            self.forget()
+        return judged
 
     async def decide(self, judged: Proposal, seen: Seen) -> Execution | None:
         """Ask the gate; if it opens, the execution is stored as started, and `carry_out` is to follow."""

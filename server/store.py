@@ -230,6 +230,7 @@ class Store(Reads):
         operator_present: bool,
         simulated: bool,
         workspace_ok: bool,
+        unclear: str = "",
     ) -> tuple[schemas.GateDecision, schemas.Execution | None]:
         """The gate's decision, stored, and the execution that is `started` by it; nothing may move before this."""
 
@@ -241,6 +242,7 @@ class Store(Reads):
                 operator_present=operator_present,
                 simulated=simulated,
                 workspace_ok=workspace_ok,
+                unclear=unclear,
             )
             return decision, wire.execution(row) if row is not None else None
 

@@ -28,6 +28,7 @@ def begin(
     operator_present: bool,
     simulated: bool,
     workspace_ok: bool,
+    unclear: str,
 ) -> tuple[schemas.GateDecision, ExecutionRow | None]:
     """Ask the gate with everything re-read, store its answer, and `started` where it is open.
 
@@ -56,6 +57,7 @@ def begin(
         operator_present=operator_present,
         workspace_ok=workspace_ok,
         observation_current=current_observation_id == proposal.observation.uid,
+        unclear=unclear,
     )
     proposal.gate_allowed, proposal.gate_reason = decision.allowed, decision.reason
     journal(session, experiment.id, "gate", proposal=proposal_id, allowed=decision.allowed, reason=decision.reason)
@@ -201,6 +203,7 @@ def _decide(
     operator_present: bool,
     workspace_ok: bool,
     observation_current: bool,
+    unclear: str,
 ) -> schemas.GateDecision:
     verdict = schemas.Verdict(proposal.verdict) if proposal.verdict else None
     lifecycle = schemas.Lifecycle(experiment.lifecycle)
@@ -226,6 +229,7 @@ def _decide(
         operator_present=operator_present,
         workspace_ok=workspace_ok,
         observation_current=observation_current,
+        unclear=unclear,
     )
 
 

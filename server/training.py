@@ -25,7 +25,7 @@ async def train(station: Station, crew: Crew, quota: Quota, leave: asyncio.Event
     await crew.bring_up([station.robot])  # [1] the replay is a view of the stored feedback
     while not leave.is_set() and not await quota.reached():
         await station.begin()  # [2] a new episode where the last one has ended
-        seen = await station.look()  # [3, 4]
+        seen = await station.look(leave)  # [3, 4]
         await station.propose(seen)  # [5, 6]
         await station.consider()  # none of the paper's: off unless it is asked for
         judged = await station.query(seen, leave)  # [7, 8]
@@ -51,7 +51,7 @@ async def train_in_step(stations: Sequence[Station], crew: Crew, quota: Quota, l
         busy = stations[: await quota.left()]  # no more proposals than labels are wanted
         for station in busy:
             await station.begin()  # [2]
-        seen = await _all(station.look() for station in busy)  # [3, 4]
+        seen = await _all(station.look(leave) for station in busy)  # [3, 4]
         for station, sight in zip(busy, seen, strict=True):
             await station.propose(sight)  # [5, 6]
             await station.consider()

@@ -30,7 +30,8 @@ def test_every_word_of_a_task_can_be_translated(name: str) -> None:
 
 def test_every_sentence_of_the_service_that_is_translated_is_still_said() -> None:
     """Who rewords an error rewords it in `said` of every language too, or readers get it in English again."""
-    said = {text for path in (ROOT / "server").rglob("*.py") for text in _sentences(ast.parse(path.read_text("utf-8")))}
+    files = (path for folder in ("server", "robot_adapters/franka") for path in (ROOT / folder).rglob("*.py"))
+    said = {text for path in files for text in _sentences(ast.parse(path.read_text("utf-8")))}
     gone = {
         key: text
         for key, text in WORDS["said"].items()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import logging
 import time
 import uuid
@@ -11,7 +12,6 @@ from dataclasses import replace
 import numpy as np
 
 from robot_adapters.base import (
-    AdapterError,
     AdapterInfo,
     Array,
     CameraFrame,
@@ -20,6 +20,7 @@ from robot_adapters.base import (
     Observation,
     SafetyViolation,
     Scene,
+    SceneUnclear,
     SkillCall,
     SkillResult,
     SkillSpec,
@@ -41,10 +42,13 @@ from robot_adapters.franka.eyes import (
     must_be_known,
     must_be_unmoved,
     must_stand_still,
+    why_not,
 )
 from robot_adapters.franka.faults import ended_by, violations_of
 from robot_adapters.franka.holding import gripped, holds
 from robot_adapters.franka.limits import Refused, joint_limits
+from robot_adapters.franka.scene_watch import SceneWatch
+from robot_adapters.franka.telling import tell
 from robot_adapters.guiding import Guide
 from robot_adapters.projection import overlay
 from robot_adapters.registry import task as task_by_name
@@ -84,6 +88,8 @@ class FrankaAdapter:
         self._stood = self.arm.pose()
         """Where the arm was when that was made."""
         self._refusal: str | None = None
+        """Why the cameras can't be relied on."""
+        self._watch = SceneWatch()
         self._grasp: tuple[Array, float] | None = None
         """Where the fingers closed last, (3,) m robot base frame and rad; None while they are open."""
         self._episode = Episode(self._task, self._scene)
@@ -116,15 +122,18 @@ class FrankaAdapter:
         """State and images now; the same observation as long as nothing has moved.
 
         Raises:
-            Unavailable: an object is lost, a camera has moved or is gone, or the arm isn't well.
+            SceneUnclear: an object is lost, a camera has moved or is gone.
+            Unavailable: the arm isn't well.
         """
         self._must_be_well()
-        if self._observation is None:
-            self._must_see()
-            self._sight, self._stood = None, self.arm.pose()
-            scene = self._episode.scene()
-            assert self._sight is not None
-            must_be_known(self._sight)
+        if self._observation is None or self._watch.trouble is not None:
+            self._observation = None
+            with self._watch.noting():
+                self._must_see()
+                self._sight, self._stood = None, self.arm.pose()
+                scene = self._episode.scene()
+                assert self._sight is not None
+                must_be_known(self._sight)
             frames = {name: self._eyes.frame(name, still=True) for name in self.info.cameras}
             taken = min(self._sight.taken_at.values(), default=time.time())
             self._observation = Observation(uuid.uuid4().hex, self._task.state(scene), frames, taken)
@@ -140,8 +149,9 @@ class FrankaAdapter:
         """
         spec = check_call(call, self._task.skills)
         self._must_be_well()
-        before = self.observe().state
-        self._must_still_be_so()
+        before = (self._observation or self.observe()).state  # what was judged, also where a new look would differ
+        with self._watch.noting():
+            self._must_still_be_so()
         yaw = self._yaw(call, spec)
         self._observation = self._sight = None
 
@@ -205,8 +215,10 @@ class FrankaAdapter:
 
         Raises:
             InvalidCall: the call doesn't fit the task.
+            SceneUnclear: the scene isn't as the observation shows it, or that can't be seen.
         """
         spec = check_call(call, self._task.skills)
+        self._watch.must_be_clear()
         yaw = self._yaw(call, spec)
         shifted = np.eye(4)
         shifted[:3, 3] = self._shift  # from the task's frame to the robot's, then to the camera's
@@ -241,29 +253,22 @@ class FrankaAdapter:
 
     def telemetry(self) -> Telemetry:
         """What the arm says of itself, as it was seen last."""
-        state = self.arm.state
-        here, _ = self.arm.pose()
-        x, y, z = (float(v) for v in here)
-        fx, fy, fz = (float(v) for v in state.force)
-        return Telemetry(
-            joints=tuple(float(q) for q in state.joints),
-            joint_limits=self._joint_limits,
-            gripper=(x, y, z),
-            opening=self.arm.gripper_width(),
-            force=(fx, fy, fz),
-            calibration="missing" if self._refusal else "measured",
-            calibration_detail=self._refusal or "",
-            mode=state.mode.value,
-            words=WORDS[state.mode],
-        )
+        return tell(self.arm, self._joint_limits, self._refusal, self._watch)
 
     def refresh(self) -> None:
-        """Look at arm and cameras while nothing is asked of them, so that what they tell of themselves is so."""
-        self._refusal = self._why_not()
+        """Look at arm and scene while nothing is asked of them, so that what they tell of themselves is so."""
         try:
             self.arm.look()
         except ArmFault as fault:
             self.arm.lost(fault.mode)
+        mode = self.arm.state.mode
+        if mode is Mode.MOVING or not self._watch.is_due():
+            return
+        if mode is not Mode.IDLE:  # somebody guides it, or has to see to it: what is judged is looked at after that
+            self._refusal = why_not(self._eyes)
+            return
+        with contextlib.suppress(Unavailable), self._watch.noting():
+            self._look_again()
 
     def halt(self) -> None:
         """Stop at once whatever drives the arm."""
@@ -329,30 +334,28 @@ class FrankaAdapter:
             why = f" ({', '.join(state.errors)})" if state.errors else ""
             raise Unavailable(f"the arm is in state {state.mode}{why}", remedy=WORDS[state.mode])
 
-    def _why_not(self) -> str | None:
-        """Why nothing may be proposed whatever is seen; eyes that can't even say are a reason too."""
-        try:
-            return self._eyes.refusal()
-        except AdapterError as error:
-            return str(error)
-
     def _must_see(self) -> None:
-        self._refusal = self._why_not()
+        self._refusal = why_not(self._eyes)
         if self._refusal is not None:
-            raise Unavailable(self._refusal, remedy="put that right, or calibrate the cameras again, then resume")
+            raise SceneUnclear(self._refusal, remedy="put that right, or pause and calibrate the cameras again")
+
+    def _look_again(self) -> None:
+        """See that what was judged is so; where somebody waits for a picture, whether there can be one."""
+        if self._observation is not None:
+            self._must_still_be_so()
+        else:
+            self._must_see()
+            if self._watch.trouble is not None:
+                must_be_known(self._look())
 
     def _must_still_be_so(self) -> None:
         """Look once more before the arm moves: people and cameras may have moved while somebody judged."""
         assert self._sight is not None
-        try:
-            self._must_see()
-            now = self._look()
-            must_be_known(now)
-            must_be_unmoved(self._sight, now)
-            must_stand_still(self._stood, self.arm.pose())
-        except Unavailable:
-            self._observation = None
-            raise
+        self._must_see()
+        now = self._look()
+        must_be_known(now)
+        must_be_unmoved(self._sight, now)
+        must_stand_still(self._stood, self.arm.pose())
 
     def _note_grasp(self) -> None:
         if not self.arm.gripper_closed():

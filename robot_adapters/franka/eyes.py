@@ -13,7 +13,15 @@ from typing import Protocol, cast, runtime_checkable
 
 import numpy as np
 
-from robot_adapters.base import Array, CameraCalibration, CameraFrame, Unavailable
+from robot_adapters.base import (
+    AdapterError,
+    Array,
+    CameraCalibration,
+    CameraFrame,
+    SceneChanged,
+    SceneUnclear,
+    Unavailable,
+)
 from robot_adapters.guiding import Guide
 
 EYES = "seed.eyes"
@@ -62,24 +70,24 @@ def must_be_known(sight: Sight) -> None:
     """See that nothing is missing.
 
     Raises:
-        Unavailable: something is; it says what, and why.
+        SceneUnclear: something is; it says what, and why.
     """
     if sight.missing:
         lost = "; ".join(f"{name}: {why}" for name, why in sorted(sight.missing.items()))
-        raise Unavailable(f"not everything is in sight: {lost}", remedy="make it visible, then resume")
+        raise SceneUnclear(f"not everything is in sight: {lost}", remedy="make it visible")
 
 
 def must_be_unmoved(then: Sight, now: Sight) -> None:
     """See that everything is where it was.
 
     Raises:
-        Unavailable: something was moved; it says what, and how far.
+        SceneChanged: something was moved; it says what, and how far.
     """
     away = {n: float(np.linalg.norm(now.objects[n] - at)) for n, at in then.objects.items() if n in now.objects}
     away |= {n: abs(now.joints[n] - at) for n, at in then.joints.items() if n in now.joints}
     farthest = max(away, key=lambda name: away[name], default="")
     if farthest and away[farthest] > STIRRED:
-        raise Unavailable(
+        raise SceneChanged(
             f"{farthest} was moved by {away[farthest] * 1000:.0f} mm since the picture was taken",
             remedy="judge a new proposal",
         )
@@ -91,11 +99,11 @@ def must_stand_still(then: tuple[Array, float], now: tuple[Array, float]) -> Non
     then, now: its grip site, (3,) m, and its yaw, rad.
 
     Raises:
-        Unavailable: somebody has guided it elsewhere.
+        SceneChanged: somebody has guided it elsewhere.
     """
     away, turned = float(np.linalg.norm(now[0] - then[0])), abs(math.remainder(now[1] - then[1], 2 * math.pi))
     if away > STIRRED or turned > TURNED:
-        raise Unavailable(
+        raise SceneChanged(
             f"the arm was moved by {away * 1000:.0f} mm and turned by {math.degrees(turned):.0f} degrees since the "
             "picture was taken",
             remedy="judge a new proposal",
@@ -130,6 +138,14 @@ class Eyes(Protocol):
 
     def close(self) -> None:
         """Release the cameras."""
+
+
+def why_not(eyes: Eyes) -> str | None:
+    """Their refusal; eyes that can't even say are a reason too."""
+    try:
+        return eyes.refusal()
+    except AdapterError as error:
+        return str(error)
 
 
 @runtime_checkable

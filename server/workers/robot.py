@@ -225,7 +225,8 @@ class Robot:
         if told is not None and told["mode"] == "moving" and self._must_stop():
             log.error("the robot is being driven although it must stand still: it is stopped")
             self._adapter.halt()
-        changed = told is not None and (self._told is None or told["mode"] != self._told["mode"])
+        before = self._told or {}
+        changed = told is not None and any(told[what] != before.get(what) for what in ("mode", "scene"))
         if changed or time.monotonic() - self._told_at > 1.0:
             self._tell(told)
 

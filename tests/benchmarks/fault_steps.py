@@ -128,6 +128,7 @@ class Day:
             and facts["operator_present"]
             and facts["observation_current"]
             and facts["rule_stands"]
+            and not facts["unclear"]
             and self._inside(call)
             and not (facts["halted"] or facts["by_critic"] or facts["gold"])
         )
@@ -303,6 +304,7 @@ class Day:
             "operator_present": not other(0.2),
             "observation_current": not other(0.1),
             "rule_stands": not other(0.1),
+            "unclear": "not everything is in sight" if other(0.1) else "",
         }
 
     def _one_of(self, things: tuple[T, ...]) -> T:

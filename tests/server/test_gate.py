@@ -8,6 +8,7 @@ from server import gate
 from server.schemas import Lifecycle, Mode, Verdict
 
 BOTH = (False, True)
+UNCLEAR = "not everything is in sight: block_a: not seen for 4 s"
 VERDICTS: tuple[Verdict | None, ...] = (*Verdict, None)
 
 
@@ -20,9 +21,10 @@ def test_opens_for_exactly_one_kind_of_situation() -> None:
         operator,
         inside,
         current,
+        unclear,
     ) in itertools.product(
         itertools.product(Mode, VERDICTS, Lifecycle, itertools.product(BOTH, BOTH), itertools.product(BOTH, BOTH)),
-        itertools.product(BOTH, BOTH, BOTH, BOTH, BOTH),
+        itertools.product(BOTH, BOTH, BOTH, BOTH, BOTH, ("", UNCLEAR)),
     ):
         decision = gate.decide(
             mode=mode,
@@ -37,6 +39,7 @@ def test_opens_for_exactly_one_kind_of_situation() -> None:
             operator_present=operator,
             workspace_ok=inside,
             observation_current=current,
+            unclear=unclear,
         )
         expected = (
             mode == "execute_approved"
@@ -46,6 +49,7 @@ def test_opens_for_exactly_one_kind_of_situation() -> None:
             and (simulated or operator)
             and inside
             and current
+            and not unclear
             and ((simulated and rule) if critic else stands)
             and not gold
         )
@@ -96,5 +100,6 @@ def test_the_reason_names_what_is_in_the_way() -> None:
         operator_present=False,
         workspace_ok=True,
         observation_current=True,
+        unclear="",
     )
     assert shut.reason == "the mode is propose only"

@@ -5647,6 +5647,17 @@ export interface components {
              */
             calibration_detail: string;
             /**
+             * Scene
+             * @description whether it is as the newest picture shows it; null where nobody looks again
+             */
+            scene: ("clear" | "changed" | "unclear") | null;
+            /**
+             * Scene Detail
+             * @description why it isn't, in words that a trainer understands
+             * @default
+             */
+            scene_detail: string;
+            /**
              * Mode
              * @description what a real arm is doing; null for a simulated one
              */

@@ -19,6 +19,7 @@ import { NeedsHand, ResetDialog } from "../components/OperatorPanel";
 import { PracticeBanner } from "../components/PracticeBanner";
 import { ProblemCard } from "../components/ProblemCard";
 import { RobotPicker } from "../components/RobotPicker";
+import { SceneNotice } from "../components/SceneNotice";
 import { SidePanel } from "../components/SidePanel";
 import { StopButton } from "../components/StopButton";
 import { Tour } from "../components/Tour";
@@ -139,6 +140,7 @@ export function TrainerPage({ id }: { id: number }) {
               empty={experiment?.lifecycle === "created" ? t("camera.start") : now.text}
             />
             <div className="dock">
+              <SceneNotice telling={session.telling} robot={state.shown} />
               <ActivityLine
                 activity={now}
                 number={ready && drawn ? drawn.number : null}

@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from robot_adapters.franka.perception.camera import Lens
 
 RATE = 15
+PATIENCE = 60_000
+"""ms for the recorder to write one picture down: a busy machine may be long about it."""
 UNITS = 0.001
 """m, of the depth stream."""
 
@@ -35,11 +37,11 @@ def record(
     recorded.start(queue)
     for number, picture in enumerate(colours):
         sensor.on_video_frame(_frame(colour, picture, 3, number))
-        queue.wait_for_frame(5000)  # one after the other: the recorder drops what it can't keep up with
+        queue.wait_for_frame(PATIENCE)  # one after the other: the recorder drops what it can't keep up with
         if depth is not None:
             steps = np.round(depths[number] / UNITS).astype(np.uint16)
             sensor.on_video_frame(_frame(depth, steps, 2, number))
-            queue.wait_for_frame(5000)
+            queue.wait_for_frame(PATIENCE)
     recorded.stop()
     recorded.close()
     return str(path)
