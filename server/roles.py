@@ -107,6 +107,7 @@ NEEDS: dict[str, Need] = {
     "list_metrics": VIEWER,
     "export_metrics": VIEWER,
     "list_history": VIEWER,
+    "get_timeline": VIEWER,
     "list_episodes": VIEWER,
     "get_episode": VIEWER,
     "get_critic_map": VIEWER,

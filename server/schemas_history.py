@@ -56,6 +56,29 @@ class Episode(Wire):
     violations: int
 
 
+class Stretch(Wire):
+    """What was said of closed proposals within one stretch of time, as it counts by now, and what came of it."""
+
+    at: Annotated[datetime, Field(description="when it begins")]
+    good: int
+    neutral: int
+    bad: int
+    cant_tell: int
+    executions: Annotated[int, Field(description="motions that began in it, or before the next one that is told")]
+    violations: Annotated[int, Field(description="those of them with a safety violation")]
+    proposal: Annotated[int, Field(description="number of the first one that was judged in it")]
+    episode: Annotated[int, Field(description="number of that proposal's episode")]
+
+
+class Timeline(Wire):
+    """How an experiment's labels came in: stretches of the same length, oldest first, without those that have none."""
+
+    seconds: Annotated[int, Field(ge=1, description="length of each stretch")]
+    started_at: Annotated[datetime | None, Field(description="of the first label, to the second; null: there is none")]
+    ended_at: Annotated[datetime | None, Field(description="of the last label, to the second")]
+    stretches: list[Stretch]
+
+
 class EpisodePage(Page):
     """Episodes, newest first."""
 

@@ -6,10 +6,10 @@ from typing import Annotated, Literal
 
 from fastapi import APIRouter, Path, Query
 
-from server import store_history
+from server import store_history, store_timeline
 from server.privacy import veiled
 from server.routes.dependencies import LARGEST_ID, Cursor, Id, Limit, Running, Who, errors
-from server.schemas_history import Episode, EpisodePage, HistoryFilter, HistoryPage, Label
+from server.schemas_history import Episode, EpisodePage, HistoryFilter, HistoryPage, Label, Timeline
 
 router = APIRouter(prefix="/experiments/{experiment_id}", tags=["history"])
 
@@ -45,6 +45,16 @@ async def list_history(  # noqa: PLR0917  FastAPI makes a query parameter of eac
     )
     found = await service.store.read(lambda s: store_history.history(s, experiment_id, wanted, cursor, limit))
     return veiled(who, found)
+
+
+@router.get("/timeline", responses=errors(404, 422))
+async def get_timeline(
+    service: Running,
+    experiment_id: Id,
+    stretches: Annotated[int, Query(ge=10, le=200, description="into at most how many the time is divided")] = 60,
+) -> Timeline:
+    """Labels on closed proposals over time, and the motions among them: counted, whoever gave them."""
+    return await service.store.read(lambda s: store_timeline.timeline(s, experiment_id, stretches))
 
 
 @router.get("/episodes", responses=errors(404, 422))

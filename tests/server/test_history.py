@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
 import pytest
+from sqlalchemy import create_engine, select, update
 from sqlalchemy.orm import Session
 
 from robot_adapters.base import SafetyViolation, SkillCall
-from server import store_history
+from server import store_history, store_timeline
+from server.models import ExecutionRow, FeedbackRow
 from server.schemas import ExecutionOutcome
 from server.schemas_history import HistoryEntry, HistoryFilter, HistoryPage
 from server.schemas_labels import RelabelCreate
@@ -63,6 +66,33 @@ async def story(store: Store) -> int:
     await store.submit_feedback(fourth.id, click(1))
     await opened(store, experiment, "o5")
     return experiment
+
+
+async def test_labels_are_counted_over_time_as_they_are_by_now(store: Store, url: str) -> None:
+    experiment = await story(store)
+    start = datetime(2026, 1, 1, tzinfo=UTC)
+    engine = create_engine(url)
+    with engine.begin() as connection:  # one bad, then two of good within a moment, and the last an hour later
+        rows = connection.scalars(select(FeedbackRow.id).order_by(FeedbackRow.id)).all()
+        for row, seconds in zip(rows, (0.4, 600.2, 601.7, 3600), strict=True):
+            at = start + timedelta(seconds=seconds)
+            connection.execute(update(FeedbackRow).where(FeedbackRow.id == row).values(received_at=at))
+        connection.execute(update(ExecutionRow).values(started_at=start + timedelta(seconds=900)))
+    engine.dispose()
+    told = await store.read(lambda session: store_timeline.timeline(session, experiment, 60))
+    assert (told.seconds, told.started_at, told.ended_at) == (61, start, start + timedelta(hours=1))
+    assert [((each.at - start).seconds, each.good, each.bad) for each in told.stretches] == [
+        (0, 0, 1),
+        (549, 2, 0),
+        (3599, 1, 0),
+    ]
+    assert [(each.proposal, each.episode) for each in told.stretches] == [(1, 1), (2, 1), (4, 2)]
+    # the motion began in a stretch without labels: it is told with the one before
+    assert [(each.executions, each.violations) for each in told.stretches] == [(0, 0), (1, 1), (0, 0)]
+    none = await running(store)
+    assert (await store.read(lambda session: store_timeline.timeline(session, none, 60))).stretches == []
+    with pytest.raises(NotFound):
+        await store.read(lambda session: store_timeline.timeline(session, 99, 60))
 
 
 async def test_closed_proposals_come_with_what_was_said_and_done_and_are_narrowed(store: Store) -> None:

@@ -715,6 +715,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/experiments/{experiment_id}/timeline": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Timeline
+         * @description Labels on closed proposals over time, and the motions among them: counted, whoever gave them.
+         */
+        get: operations["get_timeline"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/experiments/{experiment_id}/episodes": {
         parameters: {
             query?: never;
@@ -5356,6 +5376,46 @@ export interface components {
             at: string;
         };
         /**
+         * Stretch
+         * @description What was said of closed proposals within one stretch of time, as it counts by now, and what came of it.
+         */
+        Stretch: {
+            /**
+             * At
+             * Format: date-time
+             * @description when it begins
+             */
+            at: string;
+            /** Good */
+            good: number;
+            /** Neutral */
+            neutral: number;
+            /** Bad */
+            bad: number;
+            /** Cant Tell */
+            cant_tell: number;
+            /**
+             * Executions
+             * @description motions that began in it, or before the next one that is told
+             */
+            executions: number;
+            /**
+             * Violations
+             * @description those of them with a safety violation
+             */
+            violations: number;
+            /**
+             * Proposal
+             * @description number of the first one that was judged in it
+             */
+            proposal: number;
+            /**
+             * Episode
+             * @description number of that proposal's episode
+             */
+            episode: number;
+        };
+        /**
          * Study
          * @description A study with its runs and curves so far. files: what `files/{file}` has, once the study has come to its end.
          */
@@ -5668,6 +5728,29 @@ export interface components {
              * @default
              */
             words: string;
+        };
+        /**
+         * Timeline
+         * @description How an experiment's labels came in: stretches of the same length, oldest first, without those that have none.
+         */
+        Timeline: {
+            /**
+             * Seconds
+             * @description length of each stretch
+             */
+            seconds: number;
+            /**
+             * Started At
+             * @description of the first label, to the second; null: there is none
+             */
+            started_at: string | null;
+            /**
+             * Ended At
+             * @description of the last label, to the second
+             */
+            ended_at: string | null;
+            /** Stretches */
+            stretches: components["schemas"]["Stretch"][];
         };
         /**
          * Together
@@ -9749,6 +9832,94 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["HistoryPage"];
+                };
+            };
+            /** @description Nobody is signed in */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The role doesn't allow it; or a foreign page, or a foreign host name */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Nothing has this id or name */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description A field is wrong; `fields` names it */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many requests; `Retry-After` says when to come again */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description An error of the service's own */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Storage or a worker can't be had right now */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_timeline: {
+        parameters: {
+            query?: {
+                /** @description into at most how many the time is divided */
+                stretches?: number;
+            };
+            header?: never;
+            path: {
+                experiment_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Timeline"];
                 };
             };
             /** @description Nobody is signed in */

@@ -50,6 +50,7 @@ import type {
   TagInfo,
   TaskInfo,
   TeacherInfo,
+  TimelineInfo,
   Together,
   TrainerFigures,
   Value,
@@ -152,6 +153,9 @@ export const told = (id: number, narrowed: string, cursor: string | null) =>
     "GET",
     `/experiments/${id}/history?limit=100${narrowed && `&${narrowed}`}${cursor ? `&cursor=${encodeURIComponent(cursor)}` : ""}`,
   );
+
+/** How the labels of an experiment came in over time. */
+export const timeline = (id: number) => request<TimelineInfo>("GET", `/experiments/${id}/timeline`);
 
 /** Every step of an episode, oldest first. */
 export async function steps(id: number, episode: number): Promise<HistoryEntry[]> {

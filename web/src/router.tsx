@@ -1,5 +1,5 @@
 // A handful of pages need no routing library: the History API and one store.
-import { type MouseEvent, type ReactNode, useSyncExternalStore } from "react";
+import { type ComponentProps, type MouseEvent, type ReactNode, useSyncExternalStore } from "react";
 import { at, BASE } from "./base";
 
 const listeners = new Set<() => void>();
@@ -38,29 +38,38 @@ export function useSearch(): string {
   return useSyncExternalStore(subscribe, () => location.search);
 }
 
-export function Link(props: {
+type Own = "tabIndex" | "onFocus" | "onKeyDown" | "onMouseEnter";
+
+export function Link({
+  to,
+  label,
+  current,
+  testId,
+  children,
+  ...own
+}: {
   to: string;
   className?: string;
   label?: string;
   current?: boolean;
   testId?: string;
   children: ReactNode;
-}) {
+} & Pick<ComponentProps<"a">, Own>) {
   const go = (event: MouseEvent) => {
     if (event.metaKey || event.ctrlKey || event.shiftKey || event.button !== 0) return;
     event.preventDefault();
-    navigate(props.to);
+    navigate(to);
   };
   return (
     <a
-      href={at(props.to)}
-      className={props.className}
-      aria-label={props.label}
-      aria-current={props.current ? "page" : undefined}
-      data-testid={props.testId}
+      {...own}
+      href={at(to)}
+      aria-label={label}
+      aria-current={current ? "page" : undefined}
+      data-testid={testId}
       onClick={go}
     >
-      {props.children}
+      {children}
     </a>
   );
 }

@@ -1,53 +1,132 @@
-// The shown proposals along a line, oldest at the left: above it what was good, below it what was bad.
-import { labelOf, stepPath } from "../gallery";
+// How the labels of an experiment came in, by time: good above the line, bad below it, what says neither in grey. Each
+// bar leads to the first proposal that was judged in it; the Tab key reaches one, and the arrow keys the others.
+import { type KeyboardEvent, useRef, useState } from "react";
 import { t } from "../i18n";
-import { navigate } from "../router";
-import type { HistoryEntry } from "../wire";
+import { clock, shortMoment, whole } from "../i18n/numbers";
+import { Link } from "../router";
+import type { Stretch, TimelineInfo } from "../wire";
 
-const WIDTH = 1000;
-const HEIGHT = 44;
-const PLACES = { good: [4, 18], neutral: [19, 6], cantTell: [19, 6], bad: [22, 18], none: [21, 2] } as const;
+/** Seconds up to which an axis tells seconds. */
+const SHORT = 600;
 
-export function Timeline({ id, entries }: { id: number; entries: HistoryEntry[] }) {
-  const line = entries.toReversed();
-  const step = WIDTH / Math.max(line.length, 40);
-  const good = line.filter((entry) => labelOf(entry) === "good").length;
-  const bad = line.filter((entry) => labelOf(entry) === "bad").length;
+const MOVES: Record<string, (at: number, last: number) => number> = {
+  ArrowLeft: (at) => Math.max(at - 1, 0),
+  ArrowRight: (at, last) => Math.min(at + 1, last),
+  Home: () => 0,
+  End: (_, last) => last,
+};
+
+const seconds = (iso: string): number => Date.parse(iso) / 1000;
+
+function words({ good, neutral, bad, cant_tell, executions, violations }: Omit<Stretch, "at">): string {
+  const counts = { good, bad, neutral, cantTell: cant_tell, executed: executions, violation: violations };
+  return Object.entries(counts)
+    .filter(([key, count]) => count > 0 || key === "good" || key === "bad")
+    .map(([key, count]) => `${whole(count)} ${t(`gallery.count_${key as keyof typeof counts}`)}`)
+    .join(", ");
+}
+
+function total(stretches: Stretch[]): Omit<Stretch, "at"> {
+  const sum = {
+    good: 0,
+    neutral: 0,
+    bad: 0,
+    cant_tell: 0,
+    executions: 0,
+    violations: 0,
+    proposal: 0,
+    episode: 0,
+  };
+  for (const each of stretches)
+    for (const key of Object.keys(sum) as (keyof typeof sum)[]) sum[key] += each[key];
+  return sum;
+}
+
+function Axis({ from, to }: { from: string; to: string }) {
+  const span = seconds(to) - seconds(from);
+  const write = span <= SHORT ? clock : shortMoment;
+  const middle = new Date((seconds(from) + span / 2) * 1000).toISOString();
   return (
-    <svg
-      className="timeline"
-      viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
-      preserveAspectRatio="none"
-      role="img"
-      aria-label={t("gallery.timeline", { good, bad, count: line.length })}
-      data-testid="timeline"
-    >
-      <path d={`M0 ${HEIGHT / 2}H${WIDTH}`} />
-      {line.map((entry, index) => {
-        const label = labelOf(entry);
-        const [top, height] = PLACES[label];
-        return (
-          // biome-ignore lint/a11y/noStaticElementInteractions: the pictures below lead to the same places by keyboard
-          <g key={entry.proposal.id} onClick={() => navigate(stepPath(id, entry))}>
-            <rect
-              data-label={label}
-              x={index * step + step * 0.1}
-              y={top}
-              width={step * 0.8}
-              height={height}
-            />
-            {entry.execution && (
-              <rect
-                data-label={entry.execution.violations.length > 0 ? "violation" : "executed"}
-                x={index * step + step * 0.1}
-                y={0}
-                width={step * 0.8}
-                height={3}
-              />
-            )}
-          </g>
-        );
-      })}
-    </svg>
+    <div className="timeline-axis" data-testid="timeline-axis">
+      {[from, middle, to].map((iso, index) => (
+        <time key={index} dateTime={iso}>
+          {write(iso)}
+        </time>
+      ))}
+    </div>
+  );
+}
+
+export function Timeline({ id, told }: { id: number; told: TimelineInfo }) {
+  const { stretches, started_at: from, ended_at: to } = told;
+  const last = stretches.length - 1;
+  const [reached, setReached] = useState(last);
+  const [pointed, setPointed] = useState<number | null>(null);
+  const bars = useRef<HTMLOListElement>(null);
+  if (!from || !to) return null;
+  const columns = Math.floor((seconds(to) - seconds(from)) / told.seconds) + 1;
+  const upper = ({ good, neutral, cant_tell }: Stretch) => good + neutral + cant_tell;
+  const most = Math.max(...stretches.map((each) => Math.max(upper(each), each.bad)));
+  const write = seconds(to) - seconds(from) <= SHORT ? clock : shortMoment;
+  const move = (event: KeyboardEvent) => {
+    const next = MOVES[event.key]?.(Math.min(reached, last), last);
+    if (next === undefined) return;
+    event.preventDefault();
+    setReached(next);
+    bars.current?.querySelectorAll("a")[next]?.focus();
+  };
+  const stretch = pointed === null ? undefined : stretches[pointed];
+  return (
+    <section className="card timeline" aria-label={t("gallery.timeline")} data-testid="timeline">
+      <p className="soft" data-testid="timeline-words">
+        {stretch
+          ? `${write(stretch.at)}: ${words(stretch)}`
+          : `${t("gallery.timeline")}: ${words(total(stretches))}`}
+      </p>
+      <ol
+        ref={bars}
+        style={{ gridTemplateColumns: `repeat(${columns}, minmax(0, 1fr))` }}
+        onMouseLeave={() => setPointed(null)}
+      >
+        {stretches.map((each, index) => (
+          <li
+            key={each.at}
+            style={{ gridColumn: Math.floor((seconds(each.at) - seconds(from)) / told.seconds) + 1 }}
+          >
+            <Link
+              to={`/experiments/${id}/episodes/${each.episode}?proposal=${each.proposal}`}
+              label={`${write(each.at)}: ${words(each)}`}
+              tabIndex={index === Math.min(reached, last) ? 0 : -1}
+              testId="stretch"
+              onKeyDown={move}
+              onFocus={() => {
+                setReached(index);
+                setPointed(index);
+              }}
+              onMouseEnter={() => setPointed(index)}
+            >
+              <Bar stretch={each} most={most} />
+            </Link>
+          </li>
+        ))}
+      </ol>
+      <Axis from={from} to={to} />
+    </section>
+  );
+}
+
+function Bar({ stretch, most }: { stretch: Stretch; most: number }) {
+  const { good, neutral, bad, cant_tell, executions, violations } = stretch;
+  const part = (label: string, count: number) =>
+    count > 0 && <i data-label={label} style={{ height: `${(100 * count) / most}%` }} />;
+  return (
+    <>
+      <i data-came={violations > 0 ? "violation" : executions > 0 ? "executed" : "nothing"} />
+      <span className="up">
+        {part("good", good)}
+        {part("neutral", neutral + cant_tell)}
+      </span>
+      <span className="down">{part("bad", bad)}</span>
+    </>
   );
 }

@@ -36,6 +36,10 @@ export const shortMoment = (iso: string) =>
     minute: "2-digit",
   });
 
+/** The time of a day, to the second. */
+export const clock = (iso: string) =>
+  new Date(iso).toLocaleTimeString(language(), { hour: "2-digit", minute: "2-digit", second: "2-digit" });
+
 export const moment = (iso: string) => new Date(iso).toLocaleString(language());
 
 /** Three digits and a word for the thousands: on an axis there is little room. */

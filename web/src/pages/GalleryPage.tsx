@@ -15,7 +15,7 @@ import * as http from "../http";
 import { t } from "../i18n";
 import { setSearch, useSearch } from "../router";
 import { useTask } from "../useCatalogue";
-import type { Experiment, HistoryEntry, Problem } from "../wire";
+import type { Experiment, HistoryEntry, Problem, TimelineInfo } from "../wire";
 
 interface Shown {
   narrowed: string;
@@ -65,6 +65,14 @@ function useExperiment(id: number): Experiment | null {
   return experiment;
 }
 
+function useTimeline(id: number): TimelineInfo | null {
+  const [timeline, setTimeline] = useState<TimelineInfo | null>(null);
+  useEffect(() => {
+    http.timeline(id).then(setTimeline, () => undefined); // as above
+  }, [id]);
+  return timeline;
+}
+
 function Empty({ narrowed }: { narrowed: boolean }) {
   return (
     <div className="empty" data-testid="no-proposals">
@@ -79,6 +87,7 @@ export function GalleryPage({ id }: { id: number }) {
   const narrowed = narrowedIn(useSearch());
   const { shown, problem, busy, more } = useGallery(id, narrowed.toString());
   const experiment = useExperiment(id);
+  const timeline = useTimeline(id);
   const task = useTask(experiment?.task);
   useEffect(() => {
     document.title = `${t("nav.gallery")} · SEED`;
@@ -101,7 +110,7 @@ export function GalleryPage({ id }: { id: number }) {
           onChange={setSearch}
         />
         {!shown && <div className="skeleton tall" role="status" aria-label={t("common.loading")} />}
-        {shown && shown.items.length > 0 && <Timeline id={id} entries={shown.items} />}
+        {timeline && <Timeline id={id} told={timeline} />}
         {shown?.items.length === 0 && <Empty narrowed={narrowed.size > 0} />}
         <ul className="gallery">
           {shown?.items.map((entry) => (
