@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import logging
 import math
+import threading
 from typing import Any
 
 import numpy as np
@@ -41,6 +42,9 @@ class FrankaRs:
         self._driver = franka
         self._driving = driving
         self._session: Any = None
+        self._ending = (
+            threading.Lock()
+        )  # a halt may come from another thread; the arm isn't read before it is let go of
         self._joints: Array | None = None
         realtime = "enforce" if driving.realtime else "ignore"
         try:
@@ -61,10 +65,12 @@ class FrankaRs:
         try:
             raw = session.state() if session is not None else self._fresh()
         except self._driver.FrankaError as error:
+            if session is not self._session:  # halted meanwhile, from another thread
+                return self.state()
             raise ArmFault(f"the arm doesn't answer: {error}", mode=Mode.DISCONNECTED) from error
         mode = MODES.get(raw.robot_mode, Mode.USER_STOPPED)
         if session is not None and not session.running:
-            mode = self._why_ended(mode)
+            mode = self._why_ended(session, mode)
         pose = raw.O_T_EE
         return ArmState(
             raw.time,
@@ -104,10 +110,11 @@ class FrankaRs:
 
     def end(self) -> None:
         """See `FrankaBackend`."""
-        session, self._session = self._session, None
-        if session is not None:
-            with contextlib.suppress(self._driver.FrankaError):  # the state tells what is wrong, if anything is
-                session.stop()
+        with self._ending:
+            session, self._session = self._session, None
+            if session is not None:
+                with contextlib.suppress(self._driver.FrankaError):  # the state tells what is wrong, if anything is
+                    session.stop()
 
     def halt(self) -> None:
         """See `FrankaBackend`."""
@@ -126,11 +133,15 @@ class FrankaRs:
 
     def joints_arrived(self) -> bool:
         """See `FrankaBackend`."""
-        if self._session is None or self._joints is None:
+        session, joints = self._session, self._joints
+        if session is None or joints is None:
             return True
-        state = self._session.state()
-        if self._session.running and (
-            np.abs(state.q - self._joints).max() > 0.01 or np.abs(state.dq).max() > 0.01  # rad, rad/s
+        try:
+            state = session.state()
+        except self._driver.FrankaError:  # the next state tells why, or that it was halted
+            return False
+        if session.running and (
+            np.abs(state.q - joints).max() > 0.01 or np.abs(state.dq).max() > 0.01  # rad, rad/s
         ):
             return False
         self._joints = None
@@ -161,8 +172,9 @@ class FrankaRs:
 
     def _fresh(self) -> Any:
         """A state of now: the first may have waited in the socket, where newer ones found no room."""
-        self._robot.read_once()
-        return self._robot.read_once()
+        with self._ending:
+            self._robot.read_once()
+            return self._robot.read_once()
 
     def _start(self, kind: Any, **settings: Any) -> None:
         self.end()
@@ -175,22 +187,25 @@ class FrankaRs:
 
     def _go(self, target: Any) -> None:
         """Move the target of the loop; where the loop has just ended by itself, the next state tells why."""
-        if self._session is not None:
+        session = self._session
+        if session is not None:
             with contextlib.suppress(self._driver.FrankaError):
-                self._session.move_to(target)
+                session.move_to(target)
 
-    def _why_ended(self, told: Mode) -> Mode:
+    def _why_ended(self, session: Any, told: Mode) -> Mode:
         """The loop has ended: by a reflex, a user stop, or because nothing comes through any more."""
         if told in {Mode.REFLEX, Mode.USER_STOPPED}:
             return told
-        session, self._session = self._session, None
-        try:
-            session.stop()
-        except self._driver.ControlException as error:
-            log.warning("the motion was aborted: %s", error)
-        except self._driver.FrankaError as error:
-            log.warning("the connection broke: %s", error)
-            return Mode.DISCONNECTED
+        with self._ending:
+            if self._session is session:  # else a halt from another thread has ended it
+                self._session = None
+                try:
+                    session.stop()
+                except self._driver.ControlException as error:
+                    log.warning("the motion was aborted: %s", error)
+                except self._driver.FrankaError as error:
+                    log.warning("the connection broke: %s", error)
+                    return Mode.DISCONNECTED
         return self.state().mode
 
 

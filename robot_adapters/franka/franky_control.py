@@ -112,13 +112,14 @@ class Franky:
     def track(self, goal: Goal) -> None:
         """See `FrankaBackend`. It has no profile of its own: the goal's velocity is what it damps towards."""
         franky = self._driver
-        if self._motion is None or not self._robot.is_in_control:
-            if self._motion is not None:  # by its own reaction; whoever asks for the force hears why
+        motion = self._motion  # a halt from another thread takes it away
+        if motion is None or not self._robot.is_in_control:
+            if motion is not None:  # by its own reaction; whoever asks for the force hears why
                 self._join()
             return
         target = franky.Affine(goal.position, goal.quaternion)
         twist = franky.Twist(goal.velocity, np.zeros(3))
-        self._motion.set_reference(franky.CartesianReference(target=target, target_twist=twist))
+        motion.set_reference(franky.CartesianReference(target=target, target_twist=twist))
 
     def end(self) -> None:
         """See `FrankaBackend`."""

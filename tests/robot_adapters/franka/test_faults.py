@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import random
+import re
 import threading
 import time
 from collections.abc import Callable
@@ -14,10 +16,10 @@ import pytest
 from robot_adapters.base import EndReason, SkillCall, SkillResult, Unavailable
 from robot_adapters.franka import FrankaSettings
 from robot_adapters.franka.adapter import FrankaAdapter
-from robot_adapters.franka.backend import ArmFault, Mode
+from robot_adapters.franka.backend import ArmFault, Goal, Mode
 from tests.live import wait_for
 from tests.robot_adapters.franka.conftest import APART, TABLE, Build, never, nothing
-from tests.simulators.franka import SimulatedFranka
+from tests.simulators.franka import SimulatedFranka, free_host
 from tests.simulators.still_arm import HOME
 
 pytestmark = pytest.mark.simulated_arm
@@ -102,7 +104,7 @@ def test_a_user_stop_is_never_recovered_by_itself(backend: str, build: Build, ar
 
 @both
 def test_a_pulled_cable_ends_the_motion_and_is_told(backend: str, build: Build, arm: SimulatedFranka) -> None:
-    adapter = build(backend=backend, dead_man=0.6)
+    adapter = build(backend=backend)
     adapter.reset()
     pulled: list[dict[str, Any]] = []
     result = moved(adapter, AWAY, lambda: pulled.append(arm.tell(lock_step=False, plug=False)))
@@ -172,6 +174,26 @@ def test_a_motion_that_nobody_drives_any_more_is_stopped_after_the_time_that_was
         wait_for(lambda: arm.truth()["mode"] == "kIdle", "the dead-man timer to stop the arm")
 
     assert moved(adapter, AWAY, hang).end is EndReason.STOPPED
+    assert arm.truth()["mode"] == "kIdle"
+
+
+@both
+def test_a_halt_from_another_thread_is_no_fault_whenever_it_comes(
+    backend: str, build: Build, arm: SimulatedFranka
+) -> None:
+    driven = build(backend=backend).arm.backend
+    chance = random.Random(3)
+    for _ in range(12):
+        driven.begin()
+        here, pause = driven.state(), chance.uniform(0.0, 0.03)
+        goal = Goal(here.position, np.zeros(3), here.position, here.yaw)
+        halting = threading.Timer(pause, driven.halt)
+        halting.start()
+        while halting.is_alive():
+            driven.track(goal)
+            assert driven.state().mode in {Mode.IDLE, Mode.MOVING}
+        halting.join()
+        assert driven.state().mode is Mode.IDLE
     assert arm.truth()["mode"] == "kIdle"
 
 
@@ -249,7 +271,8 @@ def test_an_arm_without_a_hand_is_refused_with_a_remedy() -> None:
 
 
 def test_nobody_there_is_told_with_a_remedy(arm: SimulatedFranka) -> None:
-    settings = FrankaSettings(host="127.1.2.3", realtime=False, eyes="onlooker", eyes_settings={"host": arm.host})
-    with pytest.raises(Unavailable, match=r"127\.1\.2\.3") as refused:
+    nowhere = free_host()
+    settings = FrankaSettings(host=nowhere, realtime=False, eyes="onlooker", eyes_settings={"host": arm.host})
+    with pytest.raises(Unavailable, match=re.escape(nowhere)) as refused:
         FrankaAdapter("stacking", settings)
     assert "FCI" in refused.value.remedy
