@@ -32,7 +32,7 @@ ONCE_MORE = 0.1
 PATIENCE = 3.0
 """s for the first states: sockets connect in the background."""
 SETTLED = 0.35
-"""s for which fingers that have moved stand still before they count as arrived."""
+"""s for which fingers that have moved are seen to stand still before they count as arrived."""
 BEGINNING = 1.0
 """s that fingers which have been told to move may take to begin; then they count as arrived where they are."""
 STILL = 0.0003
@@ -78,7 +78,7 @@ class Deoxys:
         self._width: float | None = None
         self._hand_heard_at = time.monotonic()
         self._asked_at: float | None = None
-        self._moved_at = 0.0
+        self._moved_at = self._watched_since = 0.0
         self._joints: Array | None = None
         self._closed = threading.Event()
         self._thread = threading.Thread(target=self._repeat, name="deoxys", daemon=True)
@@ -128,10 +128,10 @@ class Deoxys:
         self._hear(0.0)
         if self._hand_unheard():
             self._hear(ONCE_MORE)
-        now = time.monotonic()
         if self._asked_at is not None:
             moved = self._moved_at > self._asked_at
-            if now - max(self._asked_at, self._moved_at) > (SETTLED if moved else BEGINNING):
+            since = max(self._asked_at, self._moved_at, self._watched_since)
+            if self._hand_heard_at - since > (SETTLED if moved else BEGINNING):
                 self._asked_at = None
         return HandState(self._width or 0.0, self._asked_at is not None, there=not self._hand_unheard())
 
@@ -173,9 +173,9 @@ class Deoxys:
 
     def joints_arrived(self) -> bool:
         """See `FrankaBackend`."""
-        state = self.state()
-        if self._joints is None or np.abs(state.joints - self._joints).max() > 0.01:  # rad
-            return self._joints is None
+        state, joints = self.state(), self._joints
+        if joints is None or np.abs(state.joints - joints).max() > 0.01:  # rad
+            return joints is None
         self._joints = None
         self._terminate()
         return True
@@ -244,10 +244,13 @@ class Deoxys:
                 told = self._messages.FrankaGripperStateMessage.FromString(
                     self._hand_states.recv(flags=self._zmq.NOBLOCK)
                 )
-                self._hand_heard_at = time.monotonic()
+                now = time.monotonic()
+                # after a silence nobody knows what they have done, nor whether they have heard of what was asked
+                if now - self._hand_heard_at > SETTLED:
+                    self._watched_since = now
                 if self._width is None or abs(told.width - self._width) > STILL:
-                    self._moved_at = time.monotonic()
-                self._width = told.width
+                    self._moved_at = now
+                self._hand_heard_at, self._width = now, told.width
 
     def _arm_command(self, what: Any, kind: Any, interpolation: Any, *, fraction: float) -> bytes:
         command = self._messages.FrankaControlMessage(

@@ -21,6 +21,7 @@ from robot_adapters.franka import FrankaSettings, connecting, deoxys_pb2
 from robot_adapters.franka.adapter import FrankaAdapter
 from robot_adapters.franka.arm import FrankaArm
 from robot_adapters.franka.backend import ArmFault, FingersFault, Mode
+from robot_adapters.franka.deoxys import SETTLED
 from robot_adapters.skills import run_skill
 from tests.live import wait_for
 from tests.robot_adapters.franka.conftest import TABLE, never, nothing
@@ -96,6 +97,21 @@ def test_a_stop_lets_moving_fingers_stand_and_others_hold_what_they_have(arm: Fr
     arm.backend.open()  # comes after whatever the stop said to the hand
     wait_for(lambda: peer.width > 0.045, "the fingers to open")
     assert peer.hand_stops == 1
+
+
+def test_fingers_have_not_arrived_because_nothing_is_heard_of_them(arm: FrankaArm, peer: DeoxysPeer) -> None:
+    def moving() -> bool:
+        arm.backend.grasp()  # again: the first may be said before the other side has begun to listen
+        return arm.backend.hand().width < 0.078
+
+    wait_for(moving, "the fingers to move")
+    peer.silent = True
+    since = time.monotonic()
+    while time.monotonic() - since < 2 * SETTLED:
+        assert arm.backend.hand().busy
+    peer.silent = False
+    wait_for(lambda: not arm.backend.hand().busy, "the fingers to arrive")
+    assert arm.backend.hand().width == pytest.approx(0.04)
 
 
 def test_a_stop_and_silence_are_heeded(arm: FrankaArm, peer: DeoxysPeer) -> None:
