@@ -13,6 +13,8 @@ log = logging.getLogger(__name__)
 
 IDLE_LOOK = 0.1
 """s between two looks at the width while nothing is asked."""
+MISSES = 3
+"""Looks in a row that fail until the hand counts as gone: one does where this process has been paused."""
 SPEED = 0.1
 """m/s of the fingers; the hand's own limit."""
 GRASP_FORCE = 20.0
@@ -102,6 +104,7 @@ class Fingers:
     def _serve(self) -> None:
         hand = self._hand
         assert hand is not None
+        missed = 0
         while True:
             with self._changed:
                 self._changed.wait_for(lambda: self._closing or self._asked is not None, IDLE_LOOK)
@@ -109,7 +112,7 @@ class Fingers:
                     return
                 # taken and begun in one: nothing that waits, such as a look at the width, lies between
                 what, self._asked = self._asked, None
-                self._doing = what is not None
+                self._doing = self._doing or what is not None
             if what is not None:
                 try:
                     {"grasp": hand.grasp, "open": hand.open}[what]()
@@ -117,7 +120,11 @@ class Fingers:
                     log.warning("the hand didn't %s: %s", what, error)
             try:
                 self._width = hand.width()  # also after a failure: the width tells what came of it
+                missed = 0
             except self._failures as error:
+                missed += 1
+                if missed < MISSES:
+                    continue  # what was done isn't over before its width is seen
                 log.warning("the hand is gone: %s", error)
                 self._hand = None
             with self._changed:
