@@ -72,6 +72,7 @@ def test_an_operator_who_leaves_or_says_no_more_ends_the_motion(
     service.post(f"{session.path}/start")
     session.patch(mode="execute_approved")
     first = session.proposal()
+    lab.tell(paced=True)  # so that no skill is over before they have left, or their lease is
     session.attend(30.0)
     session.approve(first)
     session.moving()
@@ -79,10 +80,11 @@ def test_an_operator_who_leaves_or_says_no_more_ends_the_motion(
     assert session.ended(1)["outcome"] == "stopped"
     session.idle()
 
-    lab.tell(paced=True)  # so that no skill is over before the lease is
     next_one = session.proposal()
-    session.attend(1.5)
+    session.attend(30.0)
     session.approve(next_one)
+    session.moving()
+    session.attend(1.5)
     assert session.ended(2)["outcome"] == "stopped"  # the lease ran out, and nobody took it anew
     session.idle()
     service.post(f"{session.path}/finish")
@@ -96,13 +98,13 @@ def test_a_driver_that_is_frozen_for_300_ms_is_stopped_by_the_robot(
     service.post(f"{session.path}/start")
     session.patch(mode="execute_approved")
     first = session.proposal()
-    start = lab.truth()["tip"]
+    start, pid = lab.truth()["tip"], worker_of(service)
+    lab.tell(paced=True)  # so that it still moves when it is frozen
     with session.attended():
         session.approve(first)
         session.moving()
         # a client doesn't answer its motion's first states, so none of those counts as lost
         wait_for(lambda: np.linalg.norm(np.subtract(lab.truth()["tip"], start)) > 0.01, "the arm to move", PATIENCE)
-        pid = worker_of(service)
         lab.tell(lock_step=False)  # a real arm doesn't wait for anybody
         os.kill(pid, signal.SIGSTOP)
         frozen = lab.truth()
@@ -120,7 +122,7 @@ def test_a_driver_that_is_frozen_for_300_ms_is_stopped_by_the_robot(
         assert service.http.post(f"/api/v1{session.path}/home?operator=anna").status_code == 409
         service.post(f"{session.path}/rearm")
         service.post(f"{session.path}/recover?operator=anna")
-        lab.tell(place=APART)
+        lab.tell(place=APART, paced=False)
         service.post(f"{session.path}/resume")
         session.approve(session.proposal())
         assert session.ended(2)["outcome"] == "succeeded"
@@ -135,6 +137,7 @@ def test_a_server_that_dies_ends_the_motion_and_nothing_goes_on_by_itself(
     own_service.post(f"{session.path}/start")
     session.patch(mode="execute_approved")
     first = session.proposal()
+    lab.tell(paced=True)  # so that it still moves when the server dies
     session.attend(30.0)
     session.approve(first)
     session.moving()
