@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import re
 import struct
@@ -104,6 +105,17 @@ class TrainerPage:
         """Judge with the mouse, as soon as it counts."""
         self.looked_at()
         self.test_id(BUTTONS[value]).click()
+
+    def escape_twice(self) -> None:
+        """Stop by Escape twice; pressed again where a busy machine has taken so long over it that they were two."""
+        halted = self.test_id("halted")
+        for _ in range(5):
+            self.page.keyboard.press("Escape")
+            self.page.keyboard.press("Escape")
+            with contextlib.suppress(AssertionError):
+                expect(halted).to_be_visible(timeout=3000)
+                return
+        expect(halted).to_be_visible()
 
     def stored(self, proposal: int) -> dict[str, Any]:
         """The proposal as the service knows it."""

@@ -1,6 +1,6 @@
 // The pictures of a practice proposal. The overlay comes only once its own picture is on the screen.
 
-import { useEffect, useState } from "react";
+import { useLayoutEffect, useState } from "react";
 import { at } from "../base";
 import { cameraName, skillName, t } from "../i18n";
 import type { Overlay, PracticeCard } from "../wire";
@@ -18,8 +18,9 @@ export interface PracticeViewsProps {
 export function PracticeViews({ card, overlays, right, onDrawn }: PracticeViewsProps) {
   const [loaded, setLoaded] = useState<readonly string[]>([]);
   const all = card.views.every(({ camera }) => loaded.includes(camera));
+  // in the same frame: a press on what can be seen counts
   // biome-ignore lint/correctness/useExhaustiveDependencies: told once, when the last picture is there
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (all) onDrawn();
   }, [all]);
   return (
