@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import os
 import re
 import signal
@@ -11,7 +12,7 @@ import sqlite3
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -40,11 +41,22 @@ def wait_for(condition: Callable[[], T | None], what: str, timeout: float = 30.0
     raise AssertionError(f"waited {timeout:.0f} s for {what}")
 
 
+def _own_ports() -> Iterator[int]:
+    """Of this test process: below those that the kernel gives to connections, and apart from other processes'."""
+    worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
+    return itertools.count(20_000 + 3_000 * (worker % 4) + os.getpid() % 2_000)
+
+
+_ports = _own_ports()
+
+
 def free_port() -> int:
-    """A port that nobody listens on now."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
+    """A port that nobody listens on now, nor is given by chance to a connection until it is listened on."""
+    while True:
+        port = next(_ports)
+        with socket.socket() as probe, contextlib.suppress(OSError):
+            probe.bind(("127.0.0.1", port))
+            return port
 
 
 class LiveService:
