@@ -42,4 +42,4 @@ def test_the_ladder_leads_from_the_paper_to_the_preset() -> None:
 
 def test_reading_the_list_loads_no_torch() -> None:
     script = "import sys, agent.ablation\nassert 'torch' not in sys.modules"
-    subprocess.run([sys.executable, "-c", script], check=True, timeout=60)
+    subprocess.run([sys.executable, "-c", script], check=True, timeout=300)

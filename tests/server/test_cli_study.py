@@ -166,8 +166,11 @@ def test_a_killed_study_of_a_claim_goes_on_with_the_rows_that_are_left(tmp_path:
         return {run.id: folder.progress(run.id, live=False).state for run in folder.plan().runs}
 
     with begun(*command) as study:
-        wait_for(lambda: out.joinpath("study.json").exists() and "finished" in states().values(), "a row", 120)
+        wait_for(
+            lambda: out.joinpath("study.json").exists() and [*states().values()].count("finished") >= 3, "a row", 120
+        )
         study.send_signal(signal.SIGKILL)
+    wait_for(lambda: not Folder(out).live, "the killed study's lock to be free")
     finished = [name for name, state in states().items() if state == "finished"]
     assert 3 <= len(finished) < 24, "a row has three runs, and there are eight rows"
     kept = {name: (out / "runs" / name / EVALUATIONS).stat().st_mtime_ns for name in finished}

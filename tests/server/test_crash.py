@@ -58,7 +58,7 @@ async def test_a_robot_worker_killed_in_mid_skill(tmp_path: Path) -> None:
         fresh = await s.proposal(at)
         assert fresh.episode == approved.episode + 1
         await s.judge(fresh, 1)
-        await s.seen.next(ExecutionEnded, s.now - 1, where=lambda e: e.execution.proposal_id == fresh.id)
+        await s.seen.next(ExecutionEnded, where=lambda e: e.execution.proposal_id == fresh.id)
         assert [e.execution.proposal_id for e in s.seen.of(ExecutionStarted)] == [approved.id, fresh.id]
         assert (await s.hub.view(experiment.id)).lifecycle is Lifecycle.RUNNING
 

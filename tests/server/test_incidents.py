@@ -19,7 +19,7 @@ def incidents(service: LiveService, experiment: int) -> list[dict[str, Any]]:
 
 
 def test_damage_is_kept_with_the_video_of_the_seconds_before(service: LiveService) -> None:
-    settings = {"violation": "damage", "every": 1, "step_seconds": 0.02}
+    settings = {"violation": "damage", "every": 1, "step_seconds": 0.1}
     experiment = service.experiment(adapter="clumsy", adapter_settings=settings)
     service.post(f"/experiments/{experiment}/start")
     approve(service, experiment, 1)

@@ -13,7 +13,7 @@ from tests.crowd import Member, lost_or_doubled
 def test_a_crowd_loses_and_doubles_no_click_over_three_kills(tmp_path: Path) -> None:
     with busy_service(tmp_path, 2) as (service, streams):
         members = crowd(streams, trainers=16, viewers=4, pause=0.5)
-        assert kill_and_return(service, members, kills=3, seconds=6) == []
+        assert kill_and_return(service, members, kills=3, seconds=10) == []
         clicks = [click for member in members for click in member.clicks]
         assert len(clicks) > 50
         assert {click.answer for click in clicks} <= {"stored", "late"}

@@ -102,7 +102,7 @@ async def test_an_experiment_whose_plug_in_is_gone_can_be_halted_and_put_away(tm
 
 async def test_a_teachers_clicks_can_be_taken_back_one_after_another(tmp_path: Path) -> None:
     async with stage(tmp_path) as s:
-        patience = {"delay": 2.0, "delay_spread": 0.0}  # time to take a click back before the next one
+        patience = {"delay": 5.0, "delay_spread": 0.0}  # time to take a click back before the next one
         experiment = await s.experiment(teacher="delayed", teacher_settings=patience, mode="propose_only")
         await s.hub.act(experiment.id, "start")
         clicks = []

@@ -98,7 +98,7 @@ async def test_the_learner_follows_at_once_and_a_new_one_starts_with_the_same_la
         await s.hub.act(experiment.id, "start")
         given: list[Feedback] = []
         for value in (-1, -1, 1, "cant_tell", -1):
-            proposal = await s.proposal(s.now if given else 0, number=len(given) + 1)
+            proposal = await s.proposal(number=len(given) + 1)
             given.append((await s.hub.feedback(proposal.id, s.click(value)))[0])
         proposal = await s.proposal(number=6)
         assert proposal.skill_probabilities == {str(given[n].id): v for n, v in ((0, -1), (1, -1), (2, 1), (4, -1))}
@@ -123,7 +123,7 @@ async def test_the_learner_tells_trainers_apart_also_after_a_restart(tmp_path: P
         await s.hub.act(experiment.id, "start")
         given: list[Feedback] = []
         for trainer in ("ann", "bob", "ann"):
-            proposal = await s.proposal(s.now if given else 0, number=len(given) + 1)
+            proposal = await s.proposal(number=len(given) + 1)
             body = s.click(-1).model_copy(update={"trainer": trainer})
             given.append((await s.hub.feedback(proposal.id, body))[0])
         at = s.now

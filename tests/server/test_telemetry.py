@@ -13,7 +13,7 @@ from tests.server.serving import event, serving
 
 async def test_a_robot_tells_of_itself_at_rest_in_motion_and_to_late_comers(tmp_path: Path) -> None:
     async with serving(tmp_path) as live:
-        experiment = await live.experiment(adapter_settings={"step_seconds": 0.02})
+        experiment = await live.experiment(adapter_settings={"step_seconds": 0.3})
         async with live.stream(experiment) as viewer:
             assert (await event(viewer, "snapshot"))["robots"] == []
             await live.http.post(f"/api/v1/experiments/{experiment}/start")

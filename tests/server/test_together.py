@@ -117,8 +117,7 @@ async def test_in_parallel_each_has_another_and_the_first_approved_closes_the_ot
 
 async def test_who_leaves_or_says_nothing_leaves_theirs_to_the_others(tmp_path: Path) -> None:
     async with stage(tmp_path) as s:
-        together = Together(parallel=True, lease_seconds=1, vanish_seconds=0)
-        experiment = await s.experiment(together=together)
+        experiment = await s.experiment(together=Together(parallel=True, vanish_seconds=0))
         seat(s, experiment.id, "ann", "bob")
         await s.hub.act(experiment.id, "start")
         first = await judges(s, experiment.id, "ann", "bob")
@@ -128,6 +127,7 @@ async def test_who_leaves_or_says_nothing_leaves_theirs_to_the_others(tmp_path: 
         assert second["bob"].id == first["ann"].id
         # nobody is waited for who has only a page open: the lease runs out by itself
         at = s.now
+        await s.hub.update(experiment.id, ExperimentUpdate(together=TogetherUpdate(lease_seconds=1)))
         away = await s.seen.next(JudgesChanged, at, where=lambda e: all(judge.away for judge in e.judges))
         assert [(judge.trainer, judge.proposal_id) for judge in away.judges] == [("bob", None)]
         assert (await s.hub.seats.look(experiment.id, "bob")).proposal is not None
