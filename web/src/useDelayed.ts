@@ -3,11 +3,11 @@ import { useEffect, useState } from "react";
 
 const MOMENT_MS = 150;
 
-export function useDelayed<T>(value: T): T {
+export function useDelayed<T>(value: T, moment = MOMENT_MS): T {
   const [kept, setKept] = useState(value);
   useEffect(() => {
-    const timer = setTimeout(() => setKept(value), MOMENT_MS);
+    const timer = setTimeout(() => setKept(value), moment);
     return () => clearTimeout(timer);
-  }, [value]);
+  }, [value, moment]);
   return kept;
 }

@@ -4,10 +4,13 @@ import * as http from "../http";
 import { t } from "../i18n";
 import { decimal, percent } from "../i18n/numbers";
 import { type Pace, perMinute } from "../pace";
+import { useDelayed } from "../useDelayed";
 import { useLatest } from "../useLatest";
 import type { TrainerFigures } from "../wire";
 
 const REFRESH_MS = 5000;
+/** The service tells figures again for two seconds: what it told after the last of some quick clicks may miss them. */
+const SETTLED_MS = 2500;
 
 export function OwnPace({ id, feedback, pace }: { id: number; feedback: number; pace: Pace }) {
   const [now, setNow] = useState(() => Date.now());
@@ -18,7 +21,7 @@ export function OwnPace({ id, feedback, pace }: { id: number; feedback: number; 
   // Only a click of this tab may have changed one's own figures.
   const own = useLatest<TrainerFigures | null>(
     () => (feedback > 0 ? http.ownFigures(id) : Promise.resolve(null)),
-    `${id}:${Math.ceil(feedback / 5)}`,
+    `${id}:${Math.ceil(feedback / 5)}:${useDelayed(feedback, SETTLED_MS)}`,
   );
   const rate = perMinute(pace, Math.max(now, pace.clicks.at(-1) ?? 0));
   const agreement = own?.with_others;
