@@ -161,6 +161,7 @@ def test_a_hand_that_says_no_more_or_does_not_move_ends_the_skill(arm: FrankaArm
 
 def test_a_reflex_is_told_with_what_helps(arm: FrankaArm, peer: DeoxysPeer) -> None:
     peer.mode = deoxys_pb2.FrankaRobotStateMessage.Reflex
+    wait_for(lambda: arm.look().mode is Mode.REFLEX, "the reflex to be told")
     with pytest.raises(ArmFault, match="reflex"):
         run_skill(arm, PICK, TASK.skills[0], should_stop=never, on_step=nothing)
     with pytest.raises(ArmFault) as refused:
