@@ -33,6 +33,7 @@ def verdict(
     *,
     weights: Mapping[str, float] | None = None,
     alone: bool = False,
+    least: int = 1,
 ) -> Verdict | None:
     """The verdict of `votes` (trainer -> value, in the order they came), or None while it is open.
 
@@ -44,10 +45,45 @@ def verdict(
     For all but the first only the electorate's votes are counted, and those of it who abstain count as if they weren't
     in it. Where nobody could tell there is no verdict: see `nobody_could_tell`.
 
+    least: nothing is good before so many trainers have said so, however few are left to be asked. Where more may still
+    come (`may_join`) it waits for them; else it is neutral. By `first` any other answer decides meanwhile.
+
     weights: trainer -> probability that their label is true (`server.store_quality.weights`); missing: `UNKNOWN`.
     """
     if rule is Aggregation.FIRST:
-        return next((_OF_VALUE[value] for value in votes.values() if value is not None), None)
+        return _first(votes, least)
+    found = _by_electorate(rule, votes, electorate, weights, alone=alone)
+    if found is not Verdict.GOOD:
+        return found
+    good = sum(votes.get(name) == 1 for name in electorate)
+    if good >= least:
+        return found
+    missing = sum(name not in votes for name in electorate)
+    return None if good + missing >= least or may_join(electorate, least) else Verdict.NEUTRAL
+
+
+def may_join(electorate: Sequence[str], least: int) -> bool:
+    """Whether who wasn't there when a proposal opened may judge it: fewer are asked than have to say good."""
+    return len(electorate) < max(1, least)
+
+
+def _first(votes: Mapping[str, int | None], least: int) -> Verdict | None:
+    good = 0
+    for value in votes.values():
+        good += value == 1
+        if value in (0, -1) or good >= least:
+            return _OF_VALUE[value or 0] if value != 1 else Verdict.GOOD
+    return None
+
+
+def _by_electorate(
+    rule: Aggregation,
+    votes: Mapping[str, int | None],
+    electorate: Sequence[str],
+    weights: Mapping[str, float] | None,
+    *,
+    alone: bool,
+) -> Verdict | None:
     members = [name for name in dict.fromkeys(electorate) if votes.get(name, 0) is not None]
     heard = {name: value for name in members if (value := votes.get(name)) is not None}
     if not heard:

@@ -4,22 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from server.aggregation import may_join
 from server.schemas import Aggregation, Proposal
 
 MOST_SLOTS = 16
 """Open proposals of one robot at most: more trainers than that share them."""
 
 
-def may_judge(trainer: str, proposal: Proposal, rule: Aggregation) -> bool:
-    """Whether this trainer's vote on an open proposal is still asked for."""
+def may_judge(trainer: str, proposal: Proposal, rule: Aggregation, least: int = 1) -> bool:
+    """Whether this trainer's vote on an open proposal is still asked for. least: so many have to say good."""
     if proposal.closed_at is not None or trainer in proposal.heard:
         return False
-    return rule is Aggregation.FIRST or not proposal.electorate or trainer in proposal.electorate
+    return rule is Aggregation.FIRST or trainer in proposal.electorate or may_join(proposal.electorate, least)
 
 
-def is_exclusive(rule: Aggregation, *, parallel: bool) -> bool:
+def is_exclusive(rule: Aggregation, *, parallel: bool, least: int = 1) -> bool:
     """Whether a proposal is only for the one who has it: one vote decides, and there are others for the others."""
-    return parallel and rule is Aggregation.FIRST
+    return parallel and rule is Aggregation.FIRST and least == 1
 
 
 def choose(
@@ -29,6 +30,7 @@ def choose(
     rule: Aggregation,
     *,
     parallel: bool,
+    least: int = 1,
 ) -> Proposal | None:
     """The proposal for a trainer who has none: one that nobody is at, else the one with the fewest at it.
 
@@ -37,8 +39,8 @@ def choose(
     held: trainer -> id of the proposal that they have.
     """
     at = {p.id: sum(held_id == p.id for name, held_id in held.items() if name != trainer) for p in opened}
-    theirs = [p for p in opened if may_judge(trainer, p, rule)]
-    if is_exclusive(rule, parallel=parallel):
+    theirs = [p for p in opened if may_judge(trainer, p, rule, least)]
+    if is_exclusive(rule, parallel=parallel, least=least):
         theirs = [p for p in theirs if not at[p.id]]
     return min(theirs, key=lambda p: (at[p.id], -len(p.heard), p.number), default=None)
 

@@ -21,6 +21,7 @@ from server.scene import scene_info
 from server.schemas import ExperimentCreate, Mode
 from server.schemas_catalogue import AdapterInfo, AlgorithmInfo, Parameter, Skill, TaskInfo, TeacherInfo
 from server.schemas_problems import FieldProblem
+from server.schemas_together import Together, TogetherUpdate
 from server.teacher import TeacherFactory, teachers
 
 T = TypeVar("T")
@@ -124,7 +125,7 @@ def check(body: ExperimentCreate) -> ExperimentCreate:
         preset = _known("preset", body.preset, algorithm.presets)
     _check_layout(registry.tasks()[body.task]().layout, adapter, body.adapter_settings)
     lockstep = body.teacher is not None if body.lockstep is None else body.lockstep
-    check_together(parallel=body.together.parallel, teacher=body.teacher, lockstep=lockstep)
+    check_together(body.together, teacher=body.teacher, lockstep=lockstep)
     settings = _resolve("settings", algorithm.settings, {**preset, **body.settings})
     auto_approval.check(body.auto_approval, adapter=body.adapter, simulated=adapter.simulated, settings=settings)
     return body.model_copy(
@@ -137,13 +138,20 @@ def check(body: ExperimentCreate) -> ExperimentCreate:
     )
 
 
-def check_together(*, parallel: bool, teacher: str | None, lockstep: bool) -> None:
+def check_together(together: Together | TogetherUpdate, *, teacher: str | None, lockstep: bool) -> None:
     """Refuse parallel proposals where a run is to be repeatable: which are open depends on who is there, and when.
+
+    A teacher is alone, so with one nobody else can have to say good as well.
 
     Raises:
         ServiceError: 422, naming the field.
     """
-    if parallel and (teacher is not None or lockstep):
+    if (together.least or 1) > 1 and teacher is not None:
+        raise invalid(
+            [FieldProblem(field="together.least", message="is for several trainers, and a synthetic teacher is alone")],
+            remedy="leave it at 1, or create the experiment without a teacher",
+        )
+    if together.parallel and (teacher is not None or lockstep):
         why = "a synthetic teacher judges one after another" if teacher else "every step can be repeated exactly"
         raise invalid(
             [FieldProblem(field="together.parallel", message=f"is for trainers who come and go, and here {why}")],

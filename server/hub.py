@@ -250,9 +250,7 @@ class Hub:
         """
         changed = await self.store.experiment(experiment_id)
         if body.together is not None:
-            catalogue.check_together(
-                parallel=bool(body.together.parallel), teacher=changed.teacher, lockstep=changed.lockstep
-            )
+            catalogue.check_together(body.together, teacher=changed.teacher, lockstep=changed.lockstep)
         if body.auto_approval is not None:
             simulated = registry.adapter(changed.adapter).simulated
             auto_approval.check(

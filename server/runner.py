@@ -225,6 +225,8 @@ class Runner:
         now = self.experiment
         going = now.lifecycle is Lifecycle.RUNNING and not now.halted
         self.seating.follow(now.aggregation, now.together, going=going)
+        if self.seating.short:  # more have to say good than before
+            self._soon(self._welcome())
         self._wake()
 
     def conclude(self, concluded: Sequence[Concluded]) -> None:
@@ -240,10 +242,11 @@ class Runner:
         if any(set(names) & set(proposal.electorate) for proposal in self.seating.opened()):
             async with self.turn():
                 self.conclude(await self._store.leave_electorates(self.experiment.id, names))
+        await self._welcome()
 
     async def _welcome(self) -> None:
-        """Somebody has come: what nobody was there for is theirs."""
-        if any(not proposal.electorate for proposal in self.seating.opened()):
+        """Somebody has come: what too few were there for is theirs too."""
+        if self.seating.short:
             async with self.turn():
                 self.conclude(await self._store.enter_electorates(self.experiment.id, self.seating.names))
 

@@ -47,6 +47,16 @@ FinishSeconds = Annotated[
 ]
 
 
+Least = Annotated[
+    StrictInt,
+    Field(
+        ge=1,
+        le=50,
+        description="how many trainers at least have to say good before a robot moves, however few are left",
+    ),
+]
+
+
 class Together(_Wire):
     """How several trainers share the proposals of one experiment."""
 
@@ -61,6 +71,7 @@ class Together(_Wire):
             " the heads have to say good as well"
         ),
     ] = False
+    least: Least = 1
     lease_seconds: LeaseSeconds = 60.0
     vanish_seconds: VanishSeconds = 10.0
     finish_seconds: FinishSeconds = 20.0
@@ -71,6 +82,7 @@ class TogetherUpdate(_Wire):
 
     parallel: StrictBool | None = None
     weighted_approves: StrictBool | None = None
+    least: Least | None = None
     lease_seconds: LeaseSeconds | None = None
     vanish_seconds: VanishSeconds | None = None
     finish_seconds: FinishSeconds | None = None

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 
 from server import assigning
+from server.aggregation import may_join
 from server.messages import JudgesChanged, StreamEvent
 from server.schemas import Aggregation, Proposal
 from server.schemas_together import Judge, Together
@@ -72,6 +73,12 @@ class Seating:
         """Who is there, or has been until just now, and may judge: an electorate."""
         return sorted(name for name, seat in self._seats.items() if seat.counts)
 
+    @property
+    def short(self) -> bool:
+        """Whether an open proposal asks fewer than have to say good, while somebody else is there."""
+        least, there = self._together.least, set(self.names)
+        return any(may_join(p.electorate, least) and there - set(p.electorate) for p in self.opened())
+
     def wanted(self, standing: int) -> int:
         """How many proposals of one robot are to be open, where so many robots stand still.
 
@@ -93,7 +100,7 @@ class Seating:
 
     def why_not(self, trainer: str, proposal: Proposal) -> str | None:
         """Why a click of this trainer on an open proposal can't count: it is with somebody else."""
-        if not assigning.is_exclusive(self._rule, parallel=self._together.parallel):
+        if not self._exclusive:
             return None
         if self.proposal_of(trainer) == proposal.id:
             return None
@@ -179,7 +186,7 @@ class Seating:
     def deal(self) -> None:
         """Give everyone something who has nothing that waits for them, as far as there is something."""
         opened = {p.id: p for p in self.opened()}
-        exclusive = assigning.is_exclusive(self._rule, parallel=self._together.parallel)
+        exclusive, together = self._exclusive, self._together
         taken: set[int] = set()
         for name, seat in self._seats.items():
             if seat.finishing is not None and seat.counts:
@@ -189,7 +196,7 @@ class Seating:
             if (
                 mine is None
                 or not seat.counts
-                or not assigning.may_judge(name, mine, self._rule)
+                or not assigning.may_judge(name, mine, self._rule, together.least)
                 or (exclusive and mine.id in taken)
             ):
                 seat.proposal = None
@@ -198,8 +205,9 @@ class Seating:
         held = {name: seat.proposal for name, seat in self._seats.items() if seat.proposal is not None}
         for name, seat in self._seats.items():
             if seat.proposal is None and seat.counts and not seat.away:
+                waiting = list(opened.values())
                 found = assigning.choose(
-                    name, list(opened.values()), held, self._rule, parallel=self._together.parallel
+                    name, waiting, held, self._rule, parallel=together.parallel, least=together.least
                 )
                 if found is not None:
                     seat.proposal = held[name] = found.id
@@ -208,6 +216,10 @@ class Seating:
         self._tell()
 
     # --- inside -------------------------------------------------------------------------------------------------
+
+    @property
+    def _exclusive(self) -> bool:
+        return assigning.is_exclusive(self._rule, parallel=self._together.parallel, least=self._together.least)
 
     def _seated(self, trainer: str) -> Seat:
         return self._seats.setdefault(trainer, Seat(looked=self._clock()))

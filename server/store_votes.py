@@ -153,13 +153,14 @@ def verdict_of(
     session: Session, experiment: ExperimentRow, proposal: ProposalRow, cast: Mapping[str, int | None]
 ) -> schemas.Verdict | None:
     """What these votes on a proposal add up to by the rule of now."""
-    rule = schemas.Aggregation(experiment.aggregation)
+    rule, together = schemas.Aggregation(experiment.aggregation), Together.model_validate(experiment.together)
     return aggregation.verdict(
         rule,
         cast,
         proposal.electorate,
         weights=store_quality.weights(session, experiment.id) if rule is schemas.Aggregation.WEIGHTED else None,
-        alone=Together.model_validate(experiment.together).weighted_approves,
+        alone=together.weighted_approves,
+        least=together.least,
     )
 
 
@@ -195,13 +196,14 @@ def leave(session: Session, experiment_id: int, names: Collection[str]) -> list[
 
 
 def enter(session: Session, experiment_id: int, names: Sequence[str]) -> list[Concluded]:
-    """Somebody is there again: open proposals that nobody is left to judge are theirs. The others' electorates stay."""
+    """Those who are there now: open proposals that too few are left to judge are theirs too. Other electorates stay."""
     experiment = load(session, experiment_id)
     entered = []
     may = [n for n in names if store_practice.may_count(session, experiment.id, experiment.practice_required, n)]
     for proposal in _open(session, experiment_id):
-        if may and not proposal.electorate:
-            proposal.electorate = may
+        new = [name for name in may if name not in proposal.electorate]
+        if new and aggregation.may_join(proposal.electorate, _least(experiment)):
+            proposal.electorate = [*proposal.electorate, *new]
             entered.append(_concluded(session, proposal))
     return entered
 
@@ -339,12 +341,17 @@ def _why_closed(session: Session, found: Row[Any]) -> str:
     }[reason]
 
 
+def _least(experiment: ExperimentRow) -> int:
+    return Together.model_validate(experiment.together).least
+
+
 def _must_have_vote(
     session: Session, experiment: ExperimentRow, proposal: ProposalRow, trainer: str
 ) -> dict[str, int | None]:
     """The votes so far."""
-    if not proposal.electorate:  # nobody was there when it opened, or all have gone: it is for whoever comes
-        proposal.electorate = [trainer]
+    joins = trainer not in proposal.electorate and aggregation.may_join(proposal.electorate, _least(experiment))
+    if joins:  # too few were there when it opened, or have stayed: it is for whoever comes
+        proposal.electorate = [*proposal.electorate, trainer]
     cast = votes(session, proposal.id)
     if trainer in cast:
         raise Conflict(f"{trainer} has judged this proposal", remedy="undo that feedback first, or wait for the others")

@@ -162,3 +162,38 @@ def test_a_weighted_verdict_is_certain_and_its_good_has_the_heads_unless_it_may_
             assert len(set(found)) == 1, "the order of votes doesn't matter"
             if not alone:
                 assert (found[0] is G) <= (2 * values.count(1) > size)
+
+
+@pytest.mark.parametrize(
+    ("rule", "electorate", "votes", "expected"),
+    [
+        (MAJORITY, 1, (1,), None),  # the others have gone: whoever comes is waited for
+        (MAJORITY, 2, (1, 1), G),
+        (MAJORITY, 2, (1, -1), N),
+        (MAJORITY, 3, (1, 1), G),
+        (MAJORITY, 3, (1, None), None),
+        (MAJORITY, 3, (1, None, None), N),  # nobody is left who could say so
+        (UNANIMOUS, 1, (1,), None),
+        (UNANIMOUS, 1, (-1,), B),  # only a motion needs more heads
+        (UNANIMOUS, 2, (1, None), N),
+        (FIRST, 1, (1,), None),
+        (FIRST, 1, (1, 1), G),
+        (FIRST, 1, (1, -1), B),
+        (FIRST, 1, (1, 0), N),
+        (FIRST, 1, (None, 1, None, 1), G),
+        (FIRST, 1, (-1,), B),
+    ],
+)
+def test_nothing_is_good_before_at_least_two_say_so(
+    rule: Aggregation, electorate: int, votes: tuple[int | None, ...], expected: Verdict | None
+) -> None:
+    cast = dict(zip(NAMES, votes, strict=False))
+    assert verdict(rule, cast, NAMES[:electorate], least=2) == expected
+
+
+@pytest.mark.parametrize("rule", list(Aggregation))
+def test_good_always_has_the_least_it_needs(rule: Aggregation) -> None:
+    for size, least in itertools.product((1, 2, 3, 4), repeat=2):
+        for values in itertools.product((-1, 0, 1, None), repeat=size):
+            found = verdict(rule, dict(zip(NAMES, values, strict=False)), NAMES[:size], least=least)
+            assert found is not G or values.count(1) >= least

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
-from tests.server.serving import EXPERIMENT, serving
+from websockets.asyncio.client import ClientConnection
+
+from tests.server.serving import EXPERIMENT, event, serving
 from tests.server.test_errors import check_problem
 
 
@@ -29,6 +32,32 @@ async def test_the_rule_and_who_judges_what_are_set_at_the_start_and_live(tmp_pa
             told = check_problem(await live.http.patch(address, json={"together": wrong}), 422)
             assert field in told.fields[0].field
         assert (await live.http.get(address)).json()["together"] == now["together"]
+
+
+async def test_the_robot_moves_once_the_least_that_is_needed_have_said_good(tmp_path: Path) -> None:
+    async with serving(tmp_path) as live:
+        here = await live.experiment(together={"least": 2})
+        address, pages = f"/api/v1/experiments/{here}", f"{here}/stream?trainer="
+        async with live.stream(pages + "ann") as ann, live.stream(pages + "bob") as bob:
+            for page in (ann, bob):
+                await event(page, "snapshot")
+            await live.http.post(f"{address}/start")
+            proposal = (await event(bob, "proposal_opened"))["proposal"]["id"]
+
+            async def good(page: ClientConnection, trainer: str) -> None:
+                click = live.click(1, trainer=trainer, proposal_id=proposal)
+                await page.send(json.dumps(click | {"type": "feedback"}))
+
+            await good(ann, "ann")
+            assert (await event(ann, "acknowledged"))["feedback"]["status"] == "stored"
+            assert (await live.http.get(f"/api/v1/proposals/{proposal}")).json()["closed_at"] is None
+            await good(bob, "bob")
+            closed = (await event(ann, "proposal_closed"))["proposal"]
+            assert (closed["id"], closed["verdict"]) == (proposal, "good")
+            assert (await event(ann, "execution_started"))["execution"]["proposal_id"] == proposal
+        taught = EXPERIMENT | {"teacher": "synthetic", "together": {"least": 2}}
+        told = check_problem(await live.http.post("/api/v1/experiments", json=taught), 422)
+        assert told.fields[0].field == "together.least"
 
 
 async def test_nobody_is_told_a_vote_before_the_proposal_is_closed(tmp_path: Path) -> None:

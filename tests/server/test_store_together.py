@@ -18,7 +18,7 @@ from server.schemas import (
     Verdict,
 )
 from server.schemas_labels import RelabelCreate
-from server.schemas_together import Looked, TogetherUpdate
+from server.schemas_together import Looked, Together, TogetherUpdate
 from server.store import Conflict, Store
 from server.store_experiments import now
 from tests.server.databases import begun, click, new, opened, running
@@ -218,6 +218,39 @@ async def test_a_vanished_trainer_is_not_waited_for(store: Store) -> None:
     assert entered.proposal.electorate == ["bob", "cyd"]
     assert await store.enter_electorates(experiment_id, ["ann"]) == []
     assert (await voted(store, third, bob=-1)).closed.verdict is Verdict.BAD
+
+
+async def test_fewer_than_the_least_move_nothing_however_many_have_vanished(store: Store) -> None:
+    experiment_id = await running(store, aggregation="majority", together=Together(least=2))
+    proposal = await opened(store, experiment_id, electorate=(*THREE, "dan", "eve"))
+    await voted(store, proposal, ann=1)
+    (left,) = await store.leave_electorates(experiment_id, ["bob", "cyd", "dan", "eve"])
+    assert (left.proposal.electorate, left.proposal.closed_at) == (["ann"], None)
+    # whoever has come since is asked too
+    (entered,) = await store.enter_electorates(experiment_id, ["ann", "fay"])
+    assert entered.proposal.electorate == ["ann", "fay"]
+    assert await store.enter_electorates(experiment_id, ["ann", "fay", "gil"]) == []
+    assert (await voted(store, proposal, fay=1)).closed.verdict is Verdict.GOOD
+    # more are needed by now: the gate counts once more
+    await store.update_and_conclude(experiment_id, ExperimentUpdate(together=TogetherUpdate(least=3)))
+    decision, none = await begun(store, proposal.id)
+    assert (none, decision.reason) == (None, "its votes don't approve it by the rule of now")
+
+
+async def test_an_absent_veto_and_the_first_who_comes_are_not_enough_where_more_are_needed(store: Store) -> None:
+    experiment_id = await running(store, aggregation="unanimous", together=Together(least=3))
+    first, second = await beside(store, experiment_id, 2)
+    await voted(store, first, ann=1, bob=1)
+    await voted(store, second, bob=1)
+    concluded = await store.leave_electorates(experiment_id, ["cyd"])
+    assert [c.proposal.closed_at for c in concluded] == [None, None]
+    _, concluded = await store.update_and_conclude(experiment_id, ExperimentUpdate(together=TogetherUpdate(least=2)))
+    assert [(c.proposal.id, c.proposal.verdict) for c in concluded] == [(first.id, Verdict.GOOD)]
+    await store.leave_electorates(experiment_id, ["ann"])
+    assert (await voted(store, second, dan=1)).closed.verdict is Verdict.GOOD
+    third = await opened(store, experiment_id, slot=2, electorate=())
+    assert (await voted(store, third, eve=1)).closed is None
+    assert (await voted(store, third, fay=-1)).closed.verdict is Verdict.BAD
 
 
 async def test_a_new_rule_holds_for_what_is_open_and_for_nothing_that_is_closed(store: Store) -> None:

@@ -3257,6 +3257,7 @@ export interface components {
              * @default {
              *       "parallel": false,
              *       "weighted_approves": false,
+             *       "least": 1,
              *       "lease_seconds": 60,
              *       "vanish_seconds": 10,
              *       "finish_seconds": 20
@@ -3397,6 +3398,7 @@ export interface components {
              * @default {
              *       "parallel": false,
              *       "weighted_approves": false,
+             *       "least": 1,
              *       "lease_seconds": 60,
              *       "vanish_seconds": 10,
              *       "finish_seconds": 20
@@ -5770,6 +5772,12 @@ export interface components {
              */
             weighted_approves: boolean;
             /**
+             * Least
+             * @description how many trainers at least have to say good before a robot moves, however few are left
+             * @default 1
+             */
+            least: number;
+            /**
              * Lease Seconds
              * @description how long a proposal stays with the trainer it was given to, without a sign that they look at it
              * @default 60
@@ -5797,6 +5805,8 @@ export interface components {
             parallel: boolean | null;
             /** Weighted Approves */
             weighted_approves: boolean | null;
+            /** Least */
+            least: number | null;
             /** Lease Seconds */
             lease_seconds: number | null;
             /** Vanish Seconds */

@@ -18,6 +18,8 @@ export interface Draft {
   aggregation: Aggregation;
   /** Whether each trainer judges proposals of their own. */
   parallel: boolean;
+  /** How many have to say good before the robot moves. */
+  least: number;
   seed: string;
   seeds: string;
   num_envs: string;
@@ -46,6 +48,7 @@ export function firstDraft(catalogue: Catalogue): Draft {
     mode: modeFor(catalogue, adapter),
     aggregation: "first",
     parallel: false,
+    least: 1,
     seed: "0",
     seeds: "1",
     num_envs: "1",
@@ -98,6 +101,7 @@ export function cloneOf(catalogue: Catalogue, from: Experiment): Draft {
     mode: modeFor(catalogue, from.adapter) === "propose_only" ? "propose_only" : from.mode,
     aggregation: from.aggregation,
     parallel: from.together.parallel,
+    least: from.together.least,
     seed: String(from.seed),
     num_envs: String(from.num_envs),
     feedback_timeout: from.feedback_timeout === null ? "" : String(from.feedback_timeout),
@@ -128,7 +132,7 @@ export function bodiesOf(catalogue: Catalogue, draft: Draft): ExperimentCreate[]
       teacher: draft.teacher || null,
       mode: draft.mode,
       aggregation: draft.aggregation,
-      together: { parallel: draft.parallel && !draft.teacher },
+      together: { parallel: draft.parallel && !draft.teacher, least: draft.teacher ? 1 : draft.least },
       seed,
       num_envs: number(draft.num_envs),
       feedback_timeout: draft.feedback_timeout.trim() === "" ? null : number(draft.feedback_timeout),

@@ -30,9 +30,10 @@ export function judgeOf(judges: Judge[], trainer: string = ME): Judge | null {
 export function asked(proposal: Proposal, experiment: Experiment | null, judges: Judge[]): boolean {
   const { electorate, heard } = proposal;
   if (heard.includes(ME)) return false;
-  const anybody = experiment?.aggregation === "first" || electorate.length === 0;
+  const least = experiment?.together.least ?? 1;
+  const anybody = experiment?.aggregation === "first" || electorate.length < least;
   if (!anybody && !electorate.includes(ME)) return false;
-  const exclusive = experiment?.aggregation === "first" && experiment.together.parallel;
+  const exclusive = experiment?.aggregation === "first" && experiment.together.parallel && least === 1;
   return !exclusive || !judges.some((each) => each.proposal_id === proposal.id && each.trainer !== ME);
 }
 

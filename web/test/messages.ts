@@ -49,6 +49,7 @@ export function experiment(change: Partial<Experiment> = {}): Experiment {
     practice_required: null,
     together: {
       parallel: false,
+      least: 1,
       weighted_approves: false,
       lease_seconds: 60,
       vanish_seconds: 10,

@@ -11,6 +11,7 @@ import type { Question } from "./Dialog";
 import { Choice } from "./Field";
 
 export const RULES: Aggregation[] = ["first", "majority", "unanimous", "weighted"];
+const LEAST = [1, 2, 3, 4, 5];
 const LEASES = [15, 30, 60, 120, 300];
 const VANISHING = [0, 5, 10, 30, 60];
 const FINISHING = [0, 10, 20, 60];
@@ -21,6 +22,13 @@ function seconds(offered: number[], now: number): { value: string; label: string
   return [...new Set([...offered, now])]
     .sort((one, other) => one - other)
     .map((each) => ({ value: String(each), label: t("together.seconds", { count: each }) }));
+}
+
+/** How many have to say good, on offer and as it is set. */
+export function heads(now: number): { value: string; label: string }[] {
+  return [...new Set([...LEAST, now])]
+    .sort((one, other) => one - other)
+    .map((count) => ({ value: String(count), label: t("together.leastOf", { count }) }));
 }
 
 function at(judge: Judge, opened: Proposal[]): string {
@@ -95,6 +103,13 @@ export function TogetherPanel({ experiment, judges, opened, session, onAsk }: To
           value={aggregation}
           options={RULES.map((value) => ({ value, label: t(`together.rules.${value}`) }))}
           onChange={(value) => set({ aggregation: value as Aggregation })}
+        />
+        <Choice
+          label={t("together.least")}
+          name="least"
+          value={String(together.least)}
+          options={heads(together.least)}
+          onChange={(value) => set({ together: { least: Number(value) } })}
         />
         <Choice
           label={t("together.proposals")}

@@ -24,12 +24,20 @@ function rule(proposal: Proposal, experiment: Experiment): string {
   return experiment.aggregation === "unanimous" ? t("together.unanimousNeeds") : t("together.weightedNeeds");
 }
 
-/** What to say of it; null where this trainer is alone with it. */
+/** What to say of it; null where this trainer is alone with it, and that is enough. */
 export function votesIn(proposal: Proposal, experiment: Experiment, judges: Judge[]): string | null {
+  const { least } = experiment.together;
+  const told = byRule(proposal, experiment, judges);
+  return least === 1 ? told : [told, t("together.leastNeeds", { count: least })].filter(Boolean).join(" ");
+}
+
+function byRule(proposal: Proposal, experiment: Experiment, judges: Judge[]): string | null {
   const others = judges.filter(({ trainer, away }) => trainer !== ME && !away).length;
   const { electorate, heard } = proposal;
   if (experiment.aggregation === "first") {
     if (others === 0) return null;
+    if (experiment.together.least > 1)
+      return t("together.votesIn", { heard: heard.length, count: others + 1 });
     if (!experiment.together.parallel) return t("together.firstDecides", { count: others });
     const me = judgeOf(judges);
     return me?.proposal_id === proposal.id && !me.finishing ? t("together.yours", { count: others }) : null;

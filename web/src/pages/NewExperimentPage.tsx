@@ -7,7 +7,7 @@ import { Header } from "../components/Header";
 import { ProblemBanner } from "../components/ProblemBanner";
 import { ProblemCard } from "../components/ProblemCard";
 import { SettingsPart } from "../components/SettingsPart";
-import { RULES } from "../components/Together";
+import { heads, RULES } from "../components/Together";
 import {
   bodiesOf,
   cloneOf,
@@ -292,6 +292,13 @@ function TogetherChoices({ draft, problem, onChange }: Omit<BasicsProps, "catalo
         options={RULES.map((value) => ({ value, label: t(`together.rules.${value}`) }))}
         error={errorAt(problem, "aggregation")}
         onChange={(value) => onChange({ aggregation: value as Aggregation })}
+      />
+      <Choice
+        label={t("together.least")}
+        name="least"
+        value={String(draft.least)}
+        options={heads(draft.least)}
+        onChange={(value) => onChange({ least: Number(value) })}
       />
       <Choice
         label={t("create.proposals")}
