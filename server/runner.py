@@ -225,8 +225,6 @@ class Runner:
         now = self.experiment
         going = now.lifecycle is Lifecycle.RUNNING and not now.halted
         self.seating.follow(now.aggregation, now.together, going=going)
-        if self.seating.short:  # more have to say good than before
-            self._soon(self._welcome())
         self._wake()
 
     def conclude(self, concluded: Sequence[Concluded]) -> None:

@@ -123,7 +123,7 @@ class Seating:
             self._settle()
         if (rule, together) != (self._rule, self._together):
             self._rule, self._together = rule, together
-            self._settle()
+            self._settle(arrived=self.short)  # more have to say good than before
 
     def arrive(self, trainer: str, *, counts: bool = True) -> None:
         """A page of theirs is open."""
