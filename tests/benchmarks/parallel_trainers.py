@@ -4,8 +4,8 @@ Synthetic trainers on Stacking, each with a WebSocket to the real service on the
 people for each proposal that they are given: log-normal, seeded. Where another's approval closes what they look at they
 finish it, as the page lets people do. Two kinds of judging are measured, because only a refusal leaves the robot be:
 
-- `by the rule`: each says what the task's rule says, from an untrained policy on until `LABELS` labels are stored. An
-  approval moves the robot.
+- `by the rule`: each says what the task's rule says, from an untrained policy on, for `JUDGED_S` seconds. An approval
+  moves the robot.
 - `refusing`: each says bad, for `REFUSING_S` seconds: the search for a first good call.
 
 How many labels it takes until 90 of 100 evaluation episodes succeed is found afterwards, by a learner like the
@@ -45,8 +45,7 @@ TASK = "stacking"
 TRAINERS = (1, 2, 4, 8)
 MEDIAN_S, SIGMA = 2.0, 0.5
 """Of the time from a proposal's arrival to the click: nineteen of twenty lie between 0.75 and 5.3 s. A choice."""
-LABELS = 40
-REFUSING_S = 30.0
+JUDGED_S, REFUSING_S = 60.0, 30.0
 PATIENCE_S = 600.0
 BAR = 0.8
 
@@ -57,7 +56,6 @@ class Room:
 
     task: Task
     refuse: bool
-    enough: int | None
     over: asyncio.Event = field(default_factory=asyncio.Event)
     begun: asyncio.Event = field(default_factory=asyncio.Event)
     """Somebody has something to look at: the workers have started."""
@@ -86,8 +84,6 @@ class Room:
             return
         self.overtaken += feedback["status"] == "overtaken"
         self.stored.append((feedback["id"], feedback["proposal_id"], feedback["value"], time.perf_counter()))
-        if self.enough is not None and len(self.stored) >= self.enough:
-            self.over.set()
 
 
 @dataclass
@@ -178,7 +174,7 @@ def measure(service: LiveService, trainers: int, seed: int, *, refuse: bool) -> 
     body = {"task": TASK, "adapter": "kinematic", "algorithm": "seed", "preset": "recommended", "seed": seed}
     experiment = service.experiment(name=name, together={"parallel": True}, **body)
     service.post(f"/experiments/{experiment}/start")
-    room = Room(registry.task(TASK), refuse, None if refuse else LABELS)
+    room = Room(registry.task(TASK), refuse)
     url = f"{service.url.replace('http', 'ws', 1)}/api/v1/experiments/{experiment}/stream"
     began = asyncio.run(_judge(room, trainers, seed, url))
     with contextlib.suppress(httpx.TransportError):
@@ -191,7 +187,7 @@ def measure(service: LiveService, trainers: int, seed: int, *, refuse: bool) -> 
             experiment,
         )
     ][: len(stored)], "what was acknowledged isn't what is stored"
-    window = REFUSING_S if refuse else stored[-1][3] - began
+    window = REFUSING_S if refuse else JUDGED_S
     needed = None if refuse else _needed(room, seed)
     return Measured(
         60 * len(stored) / window,
@@ -210,9 +206,8 @@ async def _judge(room: Room, trainers: int, seed: int, url: str) -> float:
     async def clock() -> None:
         await room.begun.wait()
         began.append(time.perf_counter())
-        if room.refuse:
-            await asyncio.sleep(REFUSING_S)
-            room.over.set()
+        await asyncio.sleep(REFUSING_S if room.refuse else JUDGED_S)
+        room.over.set()
 
     async with asyncio.timeout(PATIENCE_S):
         await asyncio.gather(clock(), *(trainer.run(url) for trainer in team))

@@ -17,7 +17,7 @@ from server.schemas import Experiment, ExperimentCreate, Feedback, FeedbackCreat
 from server.settings import Settings
 from server.store import Store
 
-PATIENCE = 60.0
+PATIENCE = 120.0
 """Seconds until a test gives up on an event; generous, because the machine may be busy."""
 SMALL = {"hidden_size": 16, "batch_size": 16}
 """Settings of a learner that costs nothing."""
