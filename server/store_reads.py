@@ -306,7 +306,8 @@ class Reads:
 def _by(trainer: str) -> ColumnElement[bool]:
     """A click of this trainer's."""
     row = models.TrainerRow
-    return models.FeedbackRow.trainer_id == select(row.id).where(row.name == trainer).scalar_subquery()
+    # a person and a teacher may have the same name
+    return models.FeedbackRow.trainer_id.in_(select(row.id).where(row.name == trainer))
 
 
 def _told() -> ColumnElement[bool]:

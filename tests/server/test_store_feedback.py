@@ -56,6 +56,15 @@ async def test_what_was_drawn_beside_a_proposal_follows_only_a_verdict_by_which_
     assert await store.open_proposals(experiment_id) == []
 
 
+async def test_a_persons_clicks_are_found_although_a_teacher_has_the_same_name(store: Store) -> None:
+    experiment_id = await running(store)
+    for kind in ("person", "teacher"):
+        proposal = await opened(store, experiment_id, kind)
+        await store.submit_feedback(proposal.id, click(-1, trainer="anna"), kind=kind)
+    found = await store.feedback_of_experiment(experiment_id, trainer="anna", told_to="anna")
+    assert [each.trainer for each in found.items] == ["anna", "anna"]
+
+
 async def test_the_same_click_again_is_stored_once(store: Store) -> None:
     experiment_id = await running(store)
     proposal = await opened(store, experiment_id)
