@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -20,21 +21,28 @@ VANISH = 1.0
 @pytest.fixture
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveService]:
     """One that finds a dead connection within two seconds, by the protocol's pings."""
-    live = LiveService(tmp_path_factory.mktemp("offline") / "data", SEED_PING_INTERVAL="1")
-    live.start()
-    yield live
-    live.sweep()
-    live.http.close()
+    with _running(tmp_path_factory.mktemp("offline"), SEED_PING_INTERVAL="1") as live:
+        yield live
 
 
-def test_who_has_vanished_clicks_on_and_each_click_is_stored_once_when_the_network_is_back(
-    browser: Browser, browser_context_args: dict[str, Any], service: LiveService
-) -> None:
-    experiment = service.experiment(
-        adapter="kinematic", num_envs=2, preset="stubborn", together={"vanish_seconds": VANISH}
-    )
+@contextmanager
+def _running(folder: Path, **settings: str) -> Iterator[LiveService]:
+    live = LiveService(folder / "data", **settings)
+    try:
+        live.start()
+        yield live
+    finally:
+        live.sweep()
+        live.http.close()
+
+
+@contextmanager
+def _bob(
+    browser: Browser, arguments: dict[str, Any], service: LiveService, experiment: int
+) -> Iterator[tuple[TrainerPage, Cable, int]]:
+    """Bob before the first proposal of an experiment, the cable of his browser, and that proposal's id."""
     cable = Cable(service.port)
-    context = browser.new_context(**browser_context_args | {"base_url": cable.url})
+    context = browser.new_context(**arguments | {"base_url": cable.url})
     context.add_init_script("localStorage.setItem('seed.trainer', 'bob')")
     try:
         bob = TrainerPage(context.new_page(), service, experiment)
@@ -43,6 +51,19 @@ def test_who_has_vanished_clicks_on_and_each_click_is_stored_once_when_the_netwo
         service.post(f"{bob.path}/start")
         first = bob.drawn()
         bob.looked_at()
+        yield bob, cable, first
+    finally:
+        context.close()
+        cable.close()
+
+
+def test_who_has_vanished_clicks_on_and_each_click_is_stored_once_when_the_network_is_back(
+    browser: Browser, browser_context_args: dict[str, Any], service: LiveService
+) -> None:
+    experiment = service.experiment(
+        adapter="kinematic", num_envs=2, preset="stubborn", together={"vanish_seconds": VANISH}
+    )
+    with _bob(browser, browser_context_args, service, experiment) as (bob, cable, first):
         opened = wait_for(lambda: _open(service, bob, 2), "a proposal of each robot", START_MS / 1000)
         (second,) = opened - {first}
 
@@ -72,47 +93,29 @@ def test_who_has_vanished_clicks_on_and_each_click_is_stored_once_when_the_netwo
         ]
         bob.page.get_by_role("button", name="In turn").click()
         assert bob.drawn(max(opened)) > max(opened)
-    finally:
-        context.close()
-        cable.close()
 
 
 @pytest.mark.long
 def test_thirty_seconds_off_line_with_the_settings_that_everybody_has(
     browser: Browser, browser_context_args: dict[str, Any], tmp_path: Path
 ) -> None:
-    service = LiveService(tmp_path / "data")
-    service.start()
-    experiment = service.experiment(adapter="kinematic", preset="stubborn", aggregation="majority")
-    cable = Cable(service.port)
-    context = browser.new_context(**browser_context_args | {"base_url": cable.url})
-    context.add_init_script("localStorage.setItem('seed.trainer', 'bob')")
-    try:
-        bob = TrainerPage(context.new_page(), service, experiment)
-        bob.page.goto(f"{cable.url}{bob.path}")
-        bob.connected()
-        service.post(f"{bob.path}/start")
-        first = bob.drawn()
-        bob.looked_at()
-        cable.pull()
-        pulled = time.monotonic()
-        bob.disconnected()
-        bob.press(-1)
-        expect(bob.connection).to_contain_text(ONE_KEPT)
-        wait_for(lambda: _people(service, bob) == [], "the service to notice", START_MS / 1000)
-        noticed = time.monotonic() - pulled
-        _vanished(service, bob)
-        wait_for(lambda: time.monotonic() > pulled + 30, "thirty seconds to be over", 60)
-        cable.plug_in()
-        bob.connected()
-        wait_for(lambda: _rows(service, bob) == [(first, "bob", "stored")], "the click, once")
-        assert bob.drawn(first) > first
-        print(f"noticed after {noticed:.1f} s")
-    finally:
-        context.close()
-        cable.close()
-        service.sweep()
-        service.http.close()
+    with _running(tmp_path) as service:
+        experiment = service.experiment(adapter="kinematic", preset="stubborn", aggregation="majority")
+        with _bob(browser, browser_context_args, service, experiment) as (bob, cable, first):
+            cable.pull()
+            pulled = time.monotonic()
+            bob.disconnected()
+            bob.press(-1)
+            expect(bob.connection).to_contain_text(ONE_KEPT)
+            wait_for(lambda: _people(service, bob) == [], "the service to notice", START_MS / 1000)
+            noticed = time.monotonic() - pulled
+            _vanished(service, bob)
+            wait_for(lambda: time.monotonic() > pulled + 30, "thirty seconds to be over", 60)
+            cable.plug_in()
+            bob.connected()
+            wait_for(lambda: _rows(service, bob) == [(first, "bob", "stored")], "the click, once")
+            assert bob.drawn(first) > first
+            print(f"noticed after {noticed:.1f} s")
 
 
 def _open(service: LiveService, page: TrainerPage, count: int) -> set[int] | None:
