@@ -70,9 +70,11 @@ def may_join(electorate: Sequence[str], least: int) -> bool:
 def _first(votes: Mapping[str, int | None], least: int) -> Verdict | None:
     good = 0
     for value in votes.values():
+        if value is None:
+            continue
         good += value == 1
-        if value in (0, -1) or good >= least:
-            return _OF_VALUE[value or 0] if value != 1 else Verdict.GOOD
+        if value != 1 or good >= least:
+            return _OF_VALUE[value]
     return None
 
 

@@ -99,12 +99,13 @@ def open_proposal(session: Session, new: NewProposal) -> ProposalRow:
     known = store_gold.drawn(session, experiment, new, number)
     again = known.again if known is not None else None
     content = _content(session, new) if again is None else {name: getattr(again, name) for name in CONTENT}
+    observation = content.pop("observation")
     row = ProposalRow(
         experiment_id=new.experiment_id,
         robot=new.robot,
         slot=new.slot,
         episode_id=episode.id,
-        observation_id=content["observation"].id,
+        observation_id=observation.id,
         number=number,
         purpose=new.purpose,
         # who has to practise first has no vote that anybody could wait for
@@ -115,10 +116,10 @@ def open_proposal(session: Session, new: NewProposal) -> ProposalRow:
         known_answer=known.answer if known is not None else None,
         gold_of=again.id if again is not None else None,
         audit=False,
-        **{name: value for name, value in content.items() if name != "observation"},
+        **content,
     )
     add(session, row)
-    for name, value in {"episode": episode, "observation": content["observation"], "heard": []}.items():
+    for name, value in {"episode": episode, "observation": observation, "heard": []}.items():
         set_committed_value(row, name, value)
     if new.purpose == "training":
         experiment.proposals += 1

@@ -42,9 +42,8 @@ class FrankaRs:
         self._driver = franka
         self._driving = driving
         self._session: Any = None
-        self._ending = (
-            threading.Lock()
-        )  # a halt may come from another thread; the arm isn't read before it is let go of
+        self._ending = threading.Lock()
+        """A halt may come from another thread; the arm isn't read before its session is let go of."""
         self._joints: Array | None = None
         realtime = "enforce" if driving.realtime else "ignore"
         try:

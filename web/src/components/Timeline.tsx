@@ -18,7 +18,10 @@ const MOVES: Record<string, (at: number, last: number) => number> = {
 
 const seconds = (iso: string): number => Date.parse(iso) / 1000;
 
-function words({ good, neutral, bad, cant_tell, executions, violations }: Omit<Stretch, "at">): string {
+const COUNTED = ["good", "neutral", "bad", "cant_tell", "executions", "violations"] as const;
+type Counts = Pick<Stretch, (typeof COUNTED)[number]>;
+
+function words({ good, neutral, bad, cant_tell, executions, violations }: Counts): string {
   const counts = { good, bad, neutral, cantTell: cant_tell, executed: executions, violation: violations };
   return Object.entries(counts)
     .filter(([key, count]) => count > 0 || key === "good" || key === "bad")
@@ -26,26 +29,13 @@ function words({ good, neutral, bad, cant_tell, executions, violations }: Omit<S
     .join(", ");
 }
 
-function total(stretches: Stretch[]): Omit<Stretch, "at"> {
-  const sum = {
-    good: 0,
-    neutral: 0,
-    bad: 0,
-    cant_tell: 0,
-    executions: 0,
-    violations: 0,
-    proposal: 0,
-    episode: 0,
-  };
-  for (const each of stretches)
-    for (const key of Object.keys(sum) as (keyof typeof sum)[]) sum[key] += each[key];
-  return sum;
+function total(stretches: Stretch[]): Counts {
+  const sums = COUNTED.map((key) => [key, stretches.reduce((sum, each) => sum + each[key], 0)]);
+  return Object.fromEntries(sums) as Counts;
 }
 
-function Axis({ from, to }: { from: string; to: string }) {
-  const span = seconds(to) - seconds(from);
-  const write = span <= SHORT ? clock : shortMoment;
-  const middle = new Date((seconds(from) + span / 2) * 1000).toISOString();
+function Axis({ from, to, write }: { from: string; to: string; write: (iso: string) => string }) {
+  const middle = new Date((Date.parse(from) + Date.parse(to)) / 2).toISOString();
   return (
     <div className="timeline-axis" data-testid="timeline-axis">
       {[from, middle, to].map((iso, index) => (
@@ -64,10 +54,11 @@ export function Timeline({ id, told }: { id: number; told: TimelineInfo }) {
   const [pointed, setPointed] = useState<number | null>(null);
   const bars = useRef<HTMLOListElement>(null);
   if (!from || !to) return null;
-  const columns = Math.floor((seconds(to) - seconds(from)) / told.seconds) + 1;
+  const span = seconds(to) - seconds(from);
+  const columns = Math.floor(span / told.seconds) + 1;
   const upper = ({ good, neutral, cant_tell }: Stretch) => good + neutral + cant_tell;
   const most = Math.max(...stretches.map((each) => Math.max(upper(each), each.bad)));
-  const write = seconds(to) - seconds(from) <= SHORT ? clock : shortMoment;
+  const write = span <= SHORT ? clock : shortMoment;
   const move = (event: KeyboardEvent) => {
     const next = MOVES[event.key]?.(Math.min(reached, last), last);
     if (next === undefined) return;
@@ -110,7 +101,7 @@ export function Timeline({ id, told }: { id: number; told: TimelineInfo }) {
           </li>
         ))}
       </ol>
-      <Axis from={from} to={to} />
+      <Axis from={from} to={to} write={write} />
     </section>
   );
 }
