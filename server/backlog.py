@@ -8,10 +8,10 @@ from server.messages import StreamEvent
 
 
 class Backlog:
-    """Remembers the last `limit` events. They are put into words only once somebody listens."""
+    """Remembers the last `limit` events: as text where somebody has listened, which no garbage collection looks at."""
 
     def __init__(self, limit: int) -> None:
-        self._events: deque[StreamEvent] = deque(maxlen=limit)
+        self._events: deque[StreamEvent | str] = deque(maxlen=limit)
         self.newest = 0
         """Number of the last event; 0 before the first."""
 
@@ -22,7 +22,11 @@ class Backlog:
         self._events.append(numbered)
         return numbered
 
-    def since(self, number: int) -> list[StreamEvent] | None:
+    def put_into_words(self, text: str) -> None:
+        """Keep the last event as its text (JSON, with every name)."""
+        self._events[-1] = text
+
+    def since(self, number: int) -> list[StreamEvent | str] | None:
         """Every event after that number, in order; None where some of them are forgotten, or never were."""
         missed = self.newest - number
         if not 0 <= missed <= len(self._events):

@@ -28,6 +28,7 @@ from server.schemas import EvaluationCreate, ExperimentCreate
 from server.settings import Settings
 from server.store import Store
 from server.store_errors import StoreError
+from server.store_process import StoreProcess
 
 app = typer.Typer(
     help="Train a robot arm from a browser tab by clicking good or bad.",
@@ -58,7 +59,8 @@ def serve(
     _log(settings.log_level)
     try:
         check_bind(settings)
-        asyncio.run(run_server(settings, announce=typer.echo))
+        with StoreProcess() as writer:
+            asyncio.run(run_server(settings, writer, announce=typer.echo))
     except (ServiceError, StoreError) as error:
         give_up(str(error), error.remedy, USAGE)
     except KeyboardInterrupt:

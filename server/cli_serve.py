@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import errno
+import gc
 import signal
 import socket
 import sys
@@ -17,6 +18,7 @@ from server.app import create_app
 from server.errors import ServiceError
 from server.service import Service, opened
 from server.settings import Settings
+from server.store_process import StoreProcess
 
 LARGEST_MESSAGE = 64 * 1024
 """Bytes of a WebSocket message; a larger one closes the connection with 1009. Ours are below 300."""
@@ -29,16 +31,17 @@ GIL_S = 0.0005
 message of a fan-out, because each send gives the interpreter up, while the store's writer is busy."""
 
 
-async def run_server(settings: Settings, *, announce: Callable[[str], None]) -> None:
+async def run_server(settings: Settings, writer: StoreProcess, *, announce: Callable[[str], None]) -> None:
     """Serve until SIGINT or SIGTERM. The port is taken first: a second start fails before it touches the database.
 
     Raises:
         ServiceError: the port or the data directory can't be had. StoreError: the database can't be used.
     """
     sys.setswitchinterval(GIL_S)
+    gc.freeze()
     listener = _listen(settings.host, settings.port)
     with listener:
-        async with opened(settings) as service:
+        async with opened(settings, elsewhere=writer) as service:
             server = Server(config(create_app(settings, service), settings))
             address = _url(settings.host, listener.getsockname()[1]) + settings.root_path
             server.on_ready = lambda: announce(f"SEED is ready: {address}")
@@ -46,6 +49,10 @@ async def run_server(settings: Settings, *, announce: Callable[[str], None]) -> 
             if settings.login:
                 await _let_the_owner_in(service, settings, address, announce)
             await server.serve(sockets=[listener])
+    if writer.died:
+        raise ServiceError(
+            503, "the process that writes to the database has ended", remedy="see the log, and start again"
+        )
 
 
 async def _let_the_owner_in(

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import asyncio
+import functools
 import queue
 import sqlite3
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Coroutine, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Concatenate, ParamSpec, Protocol, TypeVar, cast
 
 from sqlalchemy import URL, Connection, Engine, create_engine, event, make_url
 from sqlalchemy.exc import DBAPIError, IntegrityError
@@ -21,6 +22,8 @@ from server.principal import Principal, acting
 from server.store_errors import Conflict, Full, ReadOnly, StoreError
 
 T = TypeVar("T")
+P = ParamSpec("P")
+S = TypeVar("S", bound="_Part")
 
 BUSY_TIMEOUT = 10.0  # seconds to wait for another process's write, e.g. a backup tool's
 READERS = 4
@@ -103,27 +106,68 @@ class _Job:
     error: BaseException | None = None
 
 
+class Elsewhere(Protocol):
+    """Another process that writes: `server.store_process`."""
+
+    async def open(self, url: str | None, data_dir: Path, *, backup: bool) -> None:
+        """Open the store there."""
+
+    async def call(self, method: str, args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
+        """What a method marked `writes` returns there, or raises."""
+
+    async def close(self) -> None:
+        """Commit what waits."""
+
+
+class _Part(Protocol):
+    """A part of the store."""
+
+    @property
+    def _database(self) -> Database: ...
+
+
+def writes(
+    method: Callable[Concatenate[S, P], Coroutine[Any, Any, T]],
+) -> Callable[Concatenate[S, P], Coroutine[Any, Any, T]]:
+    """A method of the store that writes: done where the writer is. What it takes and returns can be pickled."""
+
+    @functools.wraps(method)
+    async def here_or_there(self: S, *args: P.args, **kwargs: P.kwargs) -> T:
+        elsewhere = self._database.elsewhere
+        if elsewhere is None:
+            return await method(self, *args, **kwargs)
+        result: T = await elsewhere.call(f"{type(self).__name__}.{method.__name__}", args, kwargs)
+        return result
+
+    return cast("Callable[Concatenate[S, P], Coroutine[Any, Any, T]]", here_or_there)
+
+
 class Database:
     """Both sides of one database. Writes are serial; a write's awaiter resumes only after its commit."""
 
-    def __init__(self, url: URL) -> None:
+    def __init__(self, url: URL, elsewhere: Elsewhere | None = None) -> None:
+        """elsewhere: has the writer; here are the readers only."""
         writer: dict[str, Any] = {"pool_size": 1, "max_overflow": 0}
         readers: dict[str, Any] = {"pool_size": READERS, "max_overflow": 0}
         if url.get_backend_name() == "postgresql":
             readers["execution_options"] = {"isolation_level": "REPEATABLE READ", "postgresql_readonly": True}
-        self._write_engine = engine(url, begin="BEGIN IMMEDIATE", **writer)
+        self.elsewhere = elsewhere
         self._read_engine = engine(url, begin="BEGIN", **readers)
         self._readers = ThreadPoolExecutor(READERS, thread_name_prefix="store-reader")
         self._jobs: queue.SimpleQueue[_Job | None] = queue.SimpleQueue()
         self._closed = False
+        self._write_engine = engine(url, begin="BEGIN IMMEDIATE", **writer)
         # daemon: a program that forgets to close must still be able to end
         self._writer = threading.Thread(target=self._write_forever, name="store-writer", daemon=True)
-        self._writer.start()
+        if elsewhere is None:
+            self._writer.start()
 
     async def write(self, run: Callable[[Session], T]) -> T:
         """Run in a write transaction; returns after the commit. `run` may raise to undo its own part only."""
         if self._closed:
             raise StoreError("the store is closed", remedy="start the service again")
+        if self.elsewhere is not None:
+            raise RuntimeError("what writes is marked `writes`")
         job = _Job(run, acting.get())
         self._jobs.put(job)
         result: T = await asyncio.wrap_future(job.future)
@@ -140,8 +184,11 @@ class Database:
         if self._closed:
             return
         self._closed = True
-        self._jobs.put(None)
-        await asyncio.to_thread(self._writer.join)
+        if self.elsewhere is not None:
+            await self.elsewhere.close()
+        else:
+            self._jobs.put(None)
+            await asyncio.to_thread(self._writer.join)
         await asyncio.to_thread(self._readers.shutdown)
         self._read_engine.dispose()
         self._write_engine.dispose()

@@ -11,7 +11,6 @@ import asyncio
 import contextlib
 import dataclasses
 import time
-from collections import deque
 from collections.abc import Callable, Collection, Sequence
 from datetime import UTC, datetime
 
@@ -74,7 +73,7 @@ class Desk:
         self.wanted = wanted
         """How many proposals are to be open, from 1."""
         self._open: dict[int, Proposal] = {}
-        self._closed: deque[Proposal] = deque(maxlen=64)  # late clicks of a crowd find theirs without the store
+        self._closed: dict[int, Proposal] = {}  # late clicks of a crowd find theirs without the store
         self._since: dict[int, float] = {}
         self._considered: set[int] = set()
         self._no_more: int | None = None
@@ -106,7 +105,7 @@ class Desk:
 
     def find(self, proposal_id: int) -> Proposal | None:
         """A proposal that is open, or was a moment ago."""
-        return self._open.get(proposal_id) or next((each for each in self._closed if each.id == proposal_id), None)
+        return self._open.get(proposal_id) or self._closed.get(proposal_id)
 
     async def present(self, drawn: NewProposal) -> None:
         """Open a proposal, unless an undo has just opened one. It is stored before it is shown.
@@ -187,6 +186,7 @@ class Desk:
             ahead = self.ahead.take({proposal.observation_id for proposal in self._open.values()})
         had = kind == "person" and self._seating.proposal_of(body.trainer) == proposal_id
         storing = self._store.submit_feedback(proposal_id, body, kind=kind, refused=refused, had=had)
+        submission: Submission
         opened: Proposal | None = None
         if ahead is not None and clicked is not None:
             async with self.turn:
@@ -352,7 +352,7 @@ class Desk:
     def _gone(self, proposal_id: int) -> None:
         """It isn't open any more; another may be proposed."""
         if (closed := self._open.pop(proposal_id, None)) is not None:
-            self._closed.append(closed)
+            self._closed = dict([*self._closed.items(), (proposal_id, closed)][-64:])
         self._since.pop(proposal_id, None)
         self._considered.discard(proposal_id)
         self._no_more = None

@@ -14,6 +14,7 @@ from server import auto_approval, catalogue, tending
 from server.desk import Desk
 from server.guiding import guide, under_way
 from server.lifecycle import MOVING
+from server.looks import Looks
 from server.messages import EvaluationChanged, ExecutionEnded, ExperimentChanged, Snapshot
 from server.presence import Presence
 from server.principal import Principal, acting
@@ -55,6 +56,7 @@ class Hub:
         self._publisher = publisher
         self._runners: dict[int, Runner] = {}
         self.seats = Seats(store, publisher)
+        self._looks = Looks(store)
         # verbs of one experiment come one after another; a halt waits for none of them
         self._verbs: defaultdict[int, asyncio.Lock] = defaultdict(asyncio.Lock)
 
@@ -90,23 +92,18 @@ class Hub:
 
     async def snapshot(self, experiment_id: int, boot_id: str, trainer: str | None = None) -> Snapshot:
         """Everything a page needs to draw itself. trainer: whose it is; None: nobody's in particular."""
-        experiment, proposals, executions, undoable = await asyncio.gather(
-            self.view(experiment_id),
-            self.store.open_proposals(experiment_id),
-            self.store.running_executions(experiment_id),
-            self.store.undoable(experiment_id, trainer),
-        )
+        seen = await self._looks.at(experiment_id, trainer)
         seating = self.seats.of(experiment_id)
         finishing = None if trainer is None else seating.finishing(trainer)
         runner = self._runners.get(experiment_id)
         return Snapshot(
-            experiment=experiment,
-            proposal=proposals[0] if proposals else None,
-            proposals=proposals,
+            experiment=self._live(seen.experiment),
+            proposal=seen.proposals[0] if seen.proposals else None,
+            proposals=seen.proposals,
             finishing=finishing,
-            execution=executions[0] if executions else None,
-            executions=executions,
-            undoable=undoable,
+            execution=seen.executions[0] if seen.executions else None,
+            executions=seen.executions,
+            undoable=seen.undoable,
             judges=seating.judges,
             robots=[] if runner is None else runner.crew.told,
             operator=self._attending(experiment_id),

@@ -43,20 +43,21 @@ def veiled(who: Principal, model: M) -> M:
 class Telling:
     """One event as text, for everybody who is to hear of it; each form of it is written once."""
 
-    def __init__(self, event: BaseModel) -> None:
+    def __init__(self, event: BaseModel | str) -> None:
+        """Tell of an event. As text: what `to(None)` has said."""
         self._event = event
-        self._text: str | None = None
         self._plain: dict[str, Any] | None = None
         self._names: set[str] = set()
         self._veiled: dict[str, str] = {}
 
     def to(self, me: str | None) -> str:
         """As `me` may hear it; None: with every name."""
+        if not isinstance(self._event, str):
+            self._event = self._event.model_dump_json()
         if me is None:
-            self._text = self._text or self._event.model_dump_json()
-            return self._text
+            return self._event
         if self._plain is None:
-            self._plain = self._event.model_dump(mode="json")
+            self._plain = json.loads(self._event)
             self._names = _names(self._plain)
         known = me if me in self._names else ""
         if known not in self._veiled:

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from server import catalogue
 from server.critic import Critics
+from server.database import Elsewhere
 from server.doors import Doors
 from server.errors import ServiceError
 from server.hub import Hub
@@ -76,15 +77,19 @@ class Service:
 
 
 @asynccontextmanager
-async def opened(settings: Settings, listener: Publisher | None = None) -> AsyncIterator[Service]:
+async def opened(
+    settings: Settings, listener: Publisher | None = None, *, elsewhere: Elsewhere | None = None
+) -> AsyncIterator[Service]:
     """A running service; on leaving, its workers end and its database closes. `listener` hears instead of viewers.
+
+    elsewhere: a process that does the writes.
 
     Raises:
         DataDirInUse: another process serves from this directory; two hubs on one store would run a robot twice.
         StoreError: the database can't be used; the remedy says what to do.
     """
     with _owned(settings.data_dir):
-        store = await Store.open(settings.database_url, settings.data_dir)
+        store = await Store.open(settings.database_url, settings.data_dir, elsewhere=elsewhere)
         try:
             # a first write: a database that can't be written fails here, and not at somebody's first click
             await store.remember("start", "start", "", 200, None)

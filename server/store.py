@@ -6,7 +6,7 @@ A write returns only after its commit. Reads see what is committed. Errors are t
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -17,22 +17,20 @@ from server import (
     schemas,
     schemas_incidents,
     schemas_labels,
-    schemas_records,
     store_executions,
     store_experiments,
     store_incidents,
     store_labels,
     store_proposals,
-    store_records,
     store_trust,
     store_undo,
     store_votes,
 )
 from server import store_wire as wire
-from server.database import Database, resolve
+from server.database import Database, Elsewhere, resolve, writes
 from server.lifecycle import Verb
 from server.store_errors import BadCursor, Conflict, Full, NewerDatabase, NotFound, ReadOnly, StoreError
-from server.store_reads import Reads
+from server.store_recording import Recording, receipted
 from server.store_upgrade import prepare
 from server.store_values import (
     Concluded,
@@ -70,20 +68,26 @@ T = TypeVar("T")
 M = TypeVar("M", schemas.Experiment, schemas.Evaluation)
 
 
-class Store(Reads):
+class Store(Recording):
     """Every query of the service. Open it with `Store.open`."""
 
     @classmethod
-    async def open(cls, url: str | None, data_dir: Path, *, backup: bool = True) -> Store:
+    async def open(
+        cls, url: str | None, data_dir: Path, *, backup: bool = True, elsewhere: Elsewhere | None = None
+    ) -> Store:
         """Create or migrate the database (a SQLite one is backed up before) and open it.
 
         url: of SQLAlchemy; None is SQLite in `data_dir`.
+        elsewhere: a process that does the writes.
 
         Raises:
             NewerDatabase: a newer version wrote it. ReadOnly, Full: a migration is due and can't be written.
         """
         target = resolve(url, data_dir)
         await asyncio.to_thread(_make_directory, data_dir)
+        if elsewhere is not None:
+            await elsewhere.open(url, data_dir, backup=backup)
+            return cls(Database(target, elsewhere))
         await asyncio.to_thread(prepare, target, data_dir, backup=backup)
         return cls(Database(target))
 
@@ -94,6 +98,7 @@ class Store(Reads):
 
     # --- experiments ------------------------------------------------------------------------------------------------
 
+    @writes
     async def create_experiment(
         self, body: schemas.ExperimentCreate, *, lockstep: bool, receipt: Receipt | None = None
     ) -> schemas.Experiment:
@@ -101,14 +106,15 @@ class Store(Reads):
 
         def create(session: Session) -> schemas.Experiment:
             made = wire.experiment(store_experiments.create(session, body, lockstep=lockstep))
-            return _receipted(session, made, receipt)
+            return receipted(session, made, receipt)
 
-        return await self._write(create)
+        return await self._database.write(create)
 
     async def update_experiment(self, experiment_id: int, change: schemas.ExperimentUpdate) -> schemas.Experiment:
         """Change what may change live; a field left out stays."""
         return (await self.update_and_conclude(experiment_id, change))[0]
 
+    @writes
     async def update_and_conclude(
         self, experiment_id: int, change: schemas.ExperimentUpdate
     ) -> tuple[schemas.Experiment, list[Concluded]]:
@@ -118,8 +124,9 @@ class Store(Reads):
             row, concluded = store_votes.update(session, experiment_id, change)
             return wire.experiment(row), concluded
 
-        return await self._write(update)
+        return await self._database.write(update)
 
+    @writes
     async def transition(
         self,
         experiment_id: int,
@@ -139,34 +146,41 @@ class Store(Reads):
             row = store_experiments.transition(session, experiment_id, verb, failure, unfinished=settle, robot=robot)
             return wire.experiment(row)
 
-        return await self._write(apply)
+        return await self._database.write(apply)
 
     async def halt(self, experiment_id: int) -> schemas.Experiment:
         """Latch the emergency stop. Never refused; again, it changes nothing."""
         return await self.transition(experiment_id, "halt")
 
+    @writes
     async def rearm(self, experiment_id: int, *, latched: bool = False) -> schemas.Experiment:
         """Unlatch the emergency stop. `latched`: there is one, even if it could not be stored."""
-        return await self._write(lambda s: wire.experiment(store_experiments.rearm(s, experiment_id, latched=latched)))
+        return await self._database.write(
+            lambda s: wire.experiment(store_experiments.rearm(s, experiment_id, latched=latched))
+        )
 
+    @writes
     async def recover(self) -> list[int]:
         """Settle what an ended process left behind; the ids of the experiments that it concerned."""
-        return await self._write(store_experiments.recover)
+        return await self._database.write(store_experiments.recover)
 
+    @writes
     async def begin_episode(
         self, experiment_id: int, seed: int, purpose: Purpose = "training", *, robot: int = 0
     ) -> int:
         """Begin a robot's episode and return its number; one that goes on ends by reset."""
-        return await self._write(
+        return await self._database.write(
             lambda s: store_experiments.begin_episode(s, experiment_id, seed, purpose, robot).number
         )
 
+    @writes
     async def end_episode(self, experiment_id: int, outcome: EpisodeOutcome, *, robot: int = 0) -> None:
         """End the episode that goes on with a robot, if any."""
-        await self._write(lambda s: store_experiments.end_episode(s, experiment_id, outcome, robot))
+        await self._database.write(lambda s: store_experiments.end_episode(s, experiment_id, outcome, robot))
 
     # --- proposals and feedback -------------------------------------------------------------------------------------
 
+    @writes
     async def open_proposal(self, new: NewProposal, *, after: int | None = None) -> schemas.Proposal:
         """Store a proposal with its observation and pictures. Conflict where it must not be open now.
 
@@ -178,12 +192,16 @@ class Store(Reads):
                 store_proposals.must_have_led_to_nothing(session, after)
             return wire.proposal(store_proposals.open_proposal(session, new))
 
-        return await self._write(opened)
+        return await self._database.write(opened)
 
+    @writes
     async def close_proposal(self, proposal_id: int, reason: schemas.CloseReason) -> schemas.Proposal:
         """Close without a verdict; a closed one stays as it is."""
-        return await self._write(lambda s: wire.proposal(store_proposals.close_proposal(s, proposal_id, reason)))
+        return await self._database.write(
+            lambda s: wire.proposal(store_proposals.close_proposal(s, proposal_id, reason))
+        )
 
+    @writes
     async def submit_feedback(
         self,
         proposal_id: int,
@@ -194,34 +212,41 @@ class Store(Reads):
         had: bool = False,
     ) -> Submission:
         """Store a click: counted, late, or known already. See `store_votes.submit`."""
-        return await self._write(lambda s: store_votes.submit(s, proposal_id, click, kind, refused, had=had))
+        return await self._database.write(lambda s: store_votes.submit(s, proposal_id, click, kind, refused, had=had))
 
+    @writes
     async def leave_electorates(self, experiment_id: int, names: Collection[str]) -> list[Concluded]:
         """Wait for these trainers no longer, on any open proposal. See `store_votes.leave`."""
-        return await self._write(lambda s: store_votes.leave(s, experiment_id, names))
+        return await self._database.write(lambda s: store_votes.leave(s, experiment_id, names))
 
+    @writes
     async def enter_electorates(self, experiment_id: int, names: Sequence[str]) -> list[Concluded]:
         """Ask these trainers for the open proposals that nobody is left to judge."""
-        return await self._write(lambda s: store_votes.enter(s, experiment_id, names))
+        return await self._database.write(lambda s: store_votes.enter(s, experiment_id, names))
 
+    @writes
     async def relabel(self, feedback_id: int, body: schemas_labels.RelabelCreate, *, anybodys: bool) -> Relabelled:
         """Correct a click on a closed proposal. See `store_labels.relabel`."""
-        return await self._write(lambda s: store_labels.relabel(s, feedback_id, body, anybodys=anybodys))
+        return await self._database.write(lambda s: store_labels.relabel(s, feedback_id, body, anybodys=anybodys))
 
+    @writes
     async def undo_feedback(self, feedback_id: int, *, keep: Collection[int] = (), by: str | None = None) -> Undone:
         """Take a trainer's newest click back while nothing has moved. See `store_undo.undo`."""
-        return await self._write(lambda s: store_undo.undo(s, feedback_id, keep=keep, by=by))
+        return await self._database.write(lambda s: store_undo.undo(s, feedback_id, keep=keep, by=by))
 
+    @writes
     async def consider(self, proposal_id: int, *, simulated: bool) -> store_trust.Considered:
         """Whether the critic approves the open proposal by itself; stored, if it does. See `store_trust.consider`."""
-        return await self._write(lambda s: store_trust.consider(s, proposal_id, simulated=simulated))
+        return await self._database.write(lambda s: store_trust.consider(s, proposal_id, simulated=simulated))
 
     # --- gate and executions ----------------------------------------------------------------------------------------
 
+    @writes
     async def record_evaluation_approval(self, proposal_id: int) -> schemas.Proposal:
         """The verdict +1 of an evaluation for its own proposal."""
-        return await self._write(lambda s: wire.proposal(store_votes.approve_evaluation(s, proposal_id)))
+        return await self._database.write(lambda s: wire.proposal(store_votes.approve_evaluation(s, proposal_id)))
 
+    @writes
     async def begin_execution(
         self,
         proposal_id: int,
@@ -246,8 +271,9 @@ class Store(Reads):
             )
             return decision, wire.execution(row) if row is not None else None
 
-        return await self._write(begin)
+        return await self._database.write(begin)
 
+    @writes
     async def report_execution(
         self, execution_id: int, body: schemas_incidents.ReportCreate
     ) -> tuple[schemas.Execution, bool]:
@@ -257,8 +283,9 @@ class Store(Reads):
             row, duplicate = store_incidents.report(session, execution_id, body)
             return wire.execution(row), duplicate
 
-        return await self._write(report)
+        return await self._database.write(report)
 
+    @writes
     async def add_incident(
         self,
         experiment_id: int,
@@ -269,7 +296,7 @@ class Store(Reads):
         frames: Sequence[dict[str, Any]],
     ) -> schemas_incidents.Incident:
         """Keep an incident with the pictures of the seconds before."""
-        return await self._write(
+        return await self._database.write(
             lambda s: wire.incident(
                 store_incidents.add_incident(
                     s, experiment_id, execution_id=execution_id, kind=kind, detail=detail, frames=frames
@@ -277,6 +304,7 @@ class Store(Reads):
             )
         )
 
+    @writes
     async def end_execution(
         self,
         execution_id: int,
@@ -288,7 +316,7 @@ class Store(Reads):
         violations: Sequence[SafetyViolation] = (),
     ) -> schemas.Execution:
         """Write the outcome, once."""
-        return await self._write(
+        return await self._database.write(
             lambda s: wire.execution(
                 store_executions.end(
                     s,
@@ -301,82 +329,6 @@ class Store(Reads):
                 )
             )
         )
-
-    # --- metrics, evaluations, checkpoints, journal -----------------------------------------------------------------
-
-    async def add_metrics(self, experiment_id: int, feedback: int, values: Mapping[str, float]) -> schemas.MetricPoint:
-        """A point of the charts at an amount of feedback."""
-        return await self._write(lambda s: store_records.add_metrics(s, experiment_id, feedback, values))
-
-    async def create_evaluation(
-        self,
-        experiment_id: int,
-        *,
-        rollouts: int,
-        seed: int,
-        policy_version: int = 0,
-        receipt: Receipt | None = None,
-    ) -> schemas.Evaluation:
-        """An evaluation that has begun, and the answer that a retry gets. Its proposals bring the policy version."""
-
-        def create(session: Session) -> schemas.Evaluation:
-            row = store_records.create_evaluation(session, experiment_id, rollouts, seed, policy_version)
-            return _receipted(session, wire.evaluation(row), receipt)
-
-        return await self._write(create)
-
-    async def update_evaluation(
-        self, evaluation_id: int, *, done: int, successes: int, low_level_steps: int, ended: bool = False
-    ) -> schemas.Evaluation:
-        """Running totals over the `done` rollouts; `ended` writes the end."""
-        return await self._write(
-            lambda s: wire.evaluation(
-                store_records.update_evaluation(
-                    s, evaluation_id, done=done, successes=successes, low_level_steps=low_level_steps, ended=ended
-                )
-            )
-        )
-
-    async def add_checkpoint(
-        self, experiment_id: int, *, policy_version: int, last_feedback_id: int, sha256: str
-    ) -> schemas_records.Checkpoint:
-        """A learner that has been saved."""
-        return await self._write(
-            lambda s: wire.checkpoint(
-                store_records.add_checkpoint(s, experiment_id, policy_version, last_feedback_id, sha256)
-            )
-        )
-
-    async def add_event(self, experiment_id: int, kind: str, payload: Mapping[str, Any]) -> schemas_records.StoredEvent:
-        """A line of the journal that no other write causes, e.g. a worker's death."""
-
-        def add(session: Session) -> schemas_records.StoredEvent:
-            store_experiments.load(session, experiment_id)
-            row = store_experiments.journal(session, experiment_id, kind, **dict(payload))
-            session.flush()
-            return wire.event(row)
-
-        return await self._write(add)
-
-    # --- retries ----------------------------------------------------------------------------------------------------
-
-    async def remember(self, key: str, route: str, body_digest: str, status: int, body: Any) -> None:
-        """Keep an answer (JSON) for a day."""
-        await self._write(lambda s: store_records.remember(s, key, route, body_digest, status=status, body=body))
-
-    # ----------------------------------------------------------------------------------------------------------------
-
-    async def _write(self, run: Callable[[Session], T]) -> T:
-        return await self._database.write(run)
-
-
-def _receipted(session: Session, made: M, receipt: Receipt | None) -> M:
-    if receipt is not None:
-        body = made.model_dump(mode="json")
-        store_records.remember(
-            session, receipt.key, receipt.route, receipt.body_digest, status=receipt.status, body=body
-        )
-    return made
 
 
 def _make_directory(path: Path) -> None:

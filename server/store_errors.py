@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 
 class StoreError(Exception):
@@ -11,6 +12,10 @@ class StoreError(Exception):
     def __init__(self, message: str, *, remedy: str) -> None:
         super().__init__(message)
         self.remedy = remedy
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickled as it is: the arguments of a subclass differ from its message."""
+        return type(self).__new__, (type(self), *self.args), self.__dict__
 
 
 class NotFound(StoreError):

@@ -13,7 +13,7 @@ from sqlalchemy.orm import Session
 
 from server import schemas_people as wire
 from server import store_pages
-from server.database import Database
+from server.database import Database, writes
 from server.models import ExperimentRow
 from server.models_people import InvitationRow, PersonRow, SessionRow
 from server.principal import Principal, Role
@@ -75,6 +75,7 @@ class PeopleStore:
 
         return await self._database.read(find)
 
+    @writes
     async def sign_in(self, body: wire.SignIn, *, lasts: timedelta) -> tuple[wire.Person, str]:
         """Let somebody in by an invitation or by a token of their own; the person, and the token of the new session.
 
@@ -110,6 +111,7 @@ class PeopleStore:
 
         return await self._database.write(enter), made
 
+    @writes
     async def sign_out(self, session_id: int) -> None:
         """End one session."""
 
@@ -119,6 +121,7 @@ class PeopleStore:
 
         await self._database.write(leave)
 
+    @writes
     async def make_token(self, person_id: int, note: str) -> str:
         """A token for a program of this person."""
         made = new_token()
@@ -158,6 +161,7 @@ class PeopleStore:
 
         return await self._database.read(find)
 
+    @writes
     async def owner_token(self, given: str | None = None) -> str:
         """A new token of the owner. Those of before, and every session of the owner, end.
 
@@ -186,6 +190,7 @@ class PeopleStore:
 
     # --- invitations --------------------------------------------------------------------------------------------
 
+    @writes
     async def invite(self, body: wire.InvitationCreate, by: Principal) -> tuple[wire.Invitation, str]:
         """A new invitation and its token.
 
@@ -234,6 +239,7 @@ class PeopleStore:
         """
         return await self._database.read(lambda s: _invitation(_load(s, InvitationRow, invitation_id)))
 
+    @writes
     async def revoke_invitation(self, invitation_id: int) -> None:
         """Let nobody in by it any more; those who are in stay."""
 
@@ -262,6 +268,7 @@ class PeopleStore:
         """
         return await self._database.read(lambda s: _person(_load(s, PersonRow, person_id)))
 
+    @writes
     async def change_role(self, person_id: int, role: Role) -> wire.Person:
         """Give somebody another role.
 
@@ -280,6 +287,7 @@ class PeopleStore:
 
         return await self._database.write(change)
 
+    @writes
     async def revoke(self, person_id: int) -> wire.Person:
         """Let somebody out, with every session and token of theirs.
 

@@ -15,7 +15,7 @@ from sqlalchemy.orm import Session
 
 from server import store_gold, store_pages, store_practice
 from server.agreement import agreement
-from server.database import Database
+from server.database import Database, writes
 from server.models import FeedbackRow, ProposalRow, RelabelRow, TrainerRow
 from server.models_quality import GoldMarkRow, PracticeRow, ReliabilityRow
 from server.reliability import Reliability, Said, estimate
@@ -74,10 +74,12 @@ class QualityStore:
         if self._telling:
             await asyncio.wait(set(self._telling.values()))
 
+    @writes
     async def mark_gold(self, proposal_id: int, body: GoldMark) -> None:
         """Know the answer to a closed proposal. See `store_gold.mark`."""
         await self._database.write(lambda s: store_gold.mark(s, proposal_id, body))
 
+    @writes
     async def unmark_gold(self, proposal_id: int) -> None:
         """Show it no more."""
         await self._database.write(lambda s: store_gold.unmark(s, proposal_id))
@@ -129,6 +131,7 @@ class QualityStore:
         if not task.cancelled() and (error := task.exception()) is not None:
             log.warning("figures of experiment %s can't be computed: %s", experiment_id, error)
 
+    @writes
     async def measure(self, experiment_id: int) -> bool:
         """Estimate each trainer's reliability anew, and store it; False where there is nothing to compare yet."""
         if not await self._database.read(lambda s: _comparable(s, experiment_id)):
@@ -146,14 +149,17 @@ class QualityStore:
         await self._database.write(keep)
         return True
 
+    @writes
     async def practice_place(self, experiment_id: int, trainer: str) -> tuple[int, int, PracticeRow | None]:
         """The trainer's id, the number of their next practice proposal, and the one that is open, if any."""
         return await self._database.write(lambda s: store_practice.place(s, experiment_id, trainer))
 
+    @writes
     async def open_practice(self, experiment_id: int, trainer: str, number: int, card: dict[str, Any]) -> PracticeRow:
         """Put a practice proposal before a trainer; one that is open stays."""
         return await self._database.write(lambda s: store_practice.open_card(s, experiment_id, trainer, number, card))
 
+    @writes
     async def answer_practice(self, practice_id: int, body: PracticeAnswer) -> PracticeRow:
         """Store the answer, once; whoever passes by it is qualified from now on."""
         return await self._database.write(lambda s: store_practice.answer(s, practice_id, body))

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
-from sqlalchemy import ColumnElement, Select, exists, or_, select
+from sqlalchemy import ColumnElement, Select, bindparam, exists, or_, select
 from sqlalchemy.orm import Session, selectinload
 
 from server import (
@@ -32,7 +32,7 @@ from server.schemas_trust import AutoApprovalRecord, Calibration
 from server.store_errors import Conflict, NotFound
 from server.store_people import PeopleStore
 from server.store_quality import QualityStore
-from server.store_values import StoredLabel, StoredResponse
+from server.store_values import Outlook, StoredLabel, StoredResponse
 
 T = TypeVar("T")
 W = TypeVar("W")
@@ -46,6 +46,14 @@ _OF_EXPERIMENT = {
 }
 
 _PROPOSALS = select(models.ProposalRow).options(selectinload(models.ProposalRow.heard))
+_OPEN = _PROPOSALS.where(
+    models.ProposalRow.experiment_id == bindparam("experiment"), models.ProposalRow.closed_at.is_(None)
+).order_by(models.ProposalRow.number)
+_RUNNING = (
+    select(models.ExecutionRow)
+    .where(models.ExecutionRow.experiment_id == bindparam("experiment"), models.ExecutionRow.ended_at.is_(None))
+    .order_by(models.ExecutionRow.id)
+)
 _CLICKS = select(models.FeedbackRow).options(selectinload(models.FeedbackRow.relabels))
 
 
@@ -91,9 +99,8 @@ class Reads:
 
     async def open_proposals(self, experiment_id: int) -> list[schemas.Proposal]:
         """The proposals that wait for feedback, at most one in each slot of a robot, oldest first."""
-        row = models.ProposalRow
-        query = _PROPOSALS.where(row.experiment_id == experiment_id, row.closed_at.is_(None)).order_by(row.number)
-        return await self._all(query, wire.proposal)
+        at = {"experiment": experiment_id}
+        return await self._database.read(lambda s: [wire.proposal(row) for row in s.scalars(_OPEN, at)])
 
     async def superseded_by(self, proposal_id: int) -> tuple[list[schemas.Proposal], list[StoredLabel]]:
         """What the approval of a proposal has closed or overtaken, and what was said of that and trains by it."""
@@ -101,14 +108,26 @@ class Reads:
 
     async def undoable(self, experiment_id: int, trainer: str | None = None) -> schemas.Feedback | None:
         """The newest feedback, of this trainer or of all, if `undo_feedback` would take it back now."""
+        return await self._database.read(lambda session: _undoable(session, experiment_id, trainer))
 
-        def find(session: Session) -> schemas.Feedback | None:
-            row = store_undo.newest_counted(session, experiment_id, trainer)
-            if row and trainer is None and session.get_one(models.ProposalRow, row.proposal_id).closed_at is None:
-                return None  # what somebody has said of it is theirs until it is closed
-            return wire.feedback(row) if row and store_undo.why_not_undoable(session, row) is None else None
+    async def outlooks(self, experiment_id: int, trainers: Sequence[str | None]) -> dict[str | None, Outlook]:
+        """Where an experiment stands for each of these trainers; None: for nobody in particular.
 
-        return await self._database.read(find)
+        Raises:
+            NotFound: no such experiment.
+        """
+
+        def look(session: Session) -> dict[str | None, Outlook]:
+            at = {"experiment": experiment_id}
+            experiment = wire.experiment(store_experiments.load(session, experiment_id))
+            proposals = [wire.proposal(row) for row in session.scalars(_OPEN, at)]
+            executions = [wire.execution(row) for row in session.scalars(_RUNNING, at)]
+            return {
+                trainer: Outlook(experiment, proposals, executions, _undoable(session, experiment_id, trainer))
+                for trainer in trainers
+            }
+
+        return await self._database.read(look)
 
     async def told(self, feedback_id: int, asker: str) -> schemas.Feedback:
         """One click, as far as somebody may know of it: what others say of an open proposal is told at its end.
@@ -207,9 +226,8 @@ class Reads:
 
     async def running_executions(self, experiment_id: int) -> list[schemas.Execution]:
         """The executions without an outcome, at most one a robot, oldest first."""
-        row = models.ExecutionRow
-        query = select(row).where(row.experiment_id == experiment_id, row.ended_at.is_(None)).order_by(row.id)
-        return await self._all(query, wire.execution)
+        at = {"experiment": experiment_id}
+        return await self._database.read(lambda s: [wire.execution(row) for row in s.scalars(_RUNNING, at)])
 
     async def metrics(
         self, experiment_id: int, cursor: str | None = None, limit: int = 50
@@ -301,6 +319,13 @@ class Reads:
             return store_pages.page(session, query, key, convert, cursor=cursor, limit=limit, newest_first=newest_first)
 
         return await self._database.read(find)
+
+
+def _undoable(session: Session, experiment_id: int, trainer: str | None) -> schemas.Feedback | None:
+    row = store_undo.newest_counted(session, experiment_id, trainer)
+    if row and trainer is None and session.get_one(models.ProposalRow, row.proposal_id).closed_at is None:
+        return None  # what somebody has said of it is theirs until it is closed
+    return wire.feedback(row) if row and store_undo.why_not_undoable(session, row) is None else None
 
 
 def _by(trainer: str) -> ColumnElement[bool]:

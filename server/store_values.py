@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from robot_adapters.base import SkillCall
-from server.schemas import Feedback, Proposal
+from server.schemas import Execution, Experiment, Feedback, Proposal
 from server.schemas_views import Overlay
 
 Purpose = Literal["training", "evaluation"]
@@ -112,6 +112,16 @@ class Undone:
     feedback: Feedback
     reopened: Proposal
     withdrawn: Proposal | None
+
+
+@dataclass(frozen=True)
+class Outlook:
+    """Where an experiment stands. `undoable` is the click that its trainer, or whoever, could take back now."""
+
+    experiment: Experiment
+    proposals: list[Proposal]
+    executions: list[Execution]
+    undoable: Feedback | None
 
 
 @dataclass(frozen=True)

@@ -152,10 +152,12 @@ class Rooms:
 
     def publish(self, experiment_id: int, event: StreamEvent) -> None:
         """Queue an event for every viewer of the experiment; never blocks."""
-        numbered = self._backlogs[experiment_id].add(event)
+        backlog = self._backlogs[experiment_id]
+        numbered = backlog.add(event)
         room = self._rooms.get(experiment_id)
         if room:
             telling = Telling(numbered)
+            backlog.put_into_words(telling.to(None))
             for outbox in room:
                 outbox.event(telling.to(outbox.reader))
 

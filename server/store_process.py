@@ -1,0 +1,201 @@
+"""The store's writes in a process of their own: one interpreter can't both serve a crowd and write down what it says.
+
+The service reads for itself and has this process do whatever is marked `server.database.writes`. A message is
+`[u32 big-endian length][pickle]`, over a socket pair that only the two of them have.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import fcntl
+import gc
+import logging
+import os
+import pickle
+import signal
+import socket
+import traceback
+from collections.abc import Iterator, Mapping, Sequence
+from multiprocessing import get_context
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+from server.principal import Principal, acting
+from server.store import Store
+from server.store_errors import StoreError
+from server.workers.channel import LENGTH
+
+log = logging.getLogger("seed.store")
+
+GRACE = 10.0
+"""Seconds that it gets to commit what waits, once the service has let go of it."""
+
+
+class StoreProcess:
+    """The process, seen from the service. Fork it before there is an event loop or a thread, and leave it after both.
+
+    If it ends by itself the service can't store anything any more, so it is asked to end too: the next start settles
+    what was open, as after any crash. What was being written then is written whole or not at all.
+    """
+
+    def __init__(self) -> None:
+        self._socket, theirs = socket.socketpair()
+        # forked, not spawned: it needs the same modules again, which take longer to import than a service to start
+        self._process = get_context("fork").Process(target=_work, args=(theirs, self._socket), name="seed-store")
+        self._process.start()
+        theirs.close()
+        self._sent = 0
+        self._waiting: dict[int, asyncio.Future[Any]] = {}
+        self._writer: asyncio.StreamWriter | None = None
+        self._replies: asyncio.Task[None] | None = None
+        self._closing = False
+        self.died = False
+        """Whether it has ended by itself."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Let go of it, and wait until it is gone."""
+        self._socket.close()
+        self._process.join(GRACE)
+        if self._process.is_alive():
+            self._process.kill()
+            self._process.join()
+
+    @property
+    def pid(self) -> int:
+        """Of the process."""
+        assert self._process.pid is not None
+        return self._process.pid
+
+    async def open(self, url: str | None, data_dir: Path, *, backup: bool) -> None:
+        """Have it open the database. It raises what `Store.open` does."""
+        reader, self._writer = await asyncio.open_unix_connection(sock=self._socket)
+        self._replies = asyncio.create_task(self._read(reader), name="replies of the store")
+        await self.call("open", (url, data_dir, backup), {})
+
+    async def call(self, method: str, args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
+        """What a method of the store returns there, or raises.
+
+        Raises:
+            StoreError: the process has ended.
+        """
+        if self._writer is None or self._closing or self.died:
+            raise _ended()
+        future: asyncio.Future[Any] = asyncio.get_running_loop().create_future()
+        self._sent += 1
+        self._waiting[self._sent] = future
+        self._writer.write(_framed((self._sent, acting.get(), method, args, kwargs)))
+        return await future
+
+    async def close(self) -> None:
+        """Have it commit what waits and let go of the database."""
+        if self._closing or self._writer is None or self._replies is None:
+            return
+        self._closing = True
+        if not self.died:
+            self._writer.write_eof()
+        await self._replies
+        self._writer.close()
+
+    async def _read(self, reader: asyncio.StreamReader) -> None:
+        """Hand replies to their callers until the process has closed its end."""
+        with contextlib.suppress(asyncio.IncompleteReadError, OSError):
+            while True:
+                number, result, error = pickle.loads(await _message(reader))
+                future = self._waiting.pop(number)
+                if future.done():  # its caller was cancelled
+                    continue
+                if error is None:
+                    future.set_result(result)
+                else:
+                    future.set_exception(error)
+        self.died = not self._closing
+        for future in self._waiting.values():
+            if not future.done():
+                future.set_exception(_ended())
+        self._waiting.clear()
+        if self.died:
+            log.critical("%s; the service ends", _ended())
+            os.kill(os.getpid(), signal.SIGTERM)
+
+
+def _ended() -> StoreError:
+    return StoreError("the process that writes to the database has ended", remedy="start the service again")
+
+
+def _framed(message: object) -> bytes:
+    body = pickle.dumps(message, pickle.HIGHEST_PROTOCOL)
+    return LENGTH.pack(len(body)) + body
+
+
+async def _message(reader: asyncio.StreamReader) -> bytes:
+    return await reader.readexactly(LENGTH.unpack(await reader.readexactly(LENGTH.size))[0])
+
+
+# --- the other side -------------------------------------------------------------------------------------------------
+
+
+def _work(end: socket.socket, others: socket.socket) -> None:
+    others.close()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)  # meant for the service, which needs the store until it is through
+    gc.freeze()
+    asyncio.run(_answer(end))
+
+
+async def _answer(end: socket.socket) -> None:
+    """Do what is asked, in the order in which it is asked, until the service has closed its end."""
+    reader, writer = await asyncio.open_unix_connection(sock=end)
+    number, _, _, (url, data_dir, backup), _ = pickle.loads(await _message(reader))
+    with _alone(data_dir):
+        try:
+            store = await Store.open(url, data_dir, backup=backup)
+        except StoreError as error:
+            writer.write(_framed((number, None, error)))
+            await writer.drain()
+            return
+        writer.write(_framed((number, None, None)))
+        parts = {type(part).__name__: part for part in (store, store.people, store.quality)}
+        under_way: set[asyncio.Task[None]] = set()
+
+        async def do(number: int, who: Principal, method: str, args: Sequence[Any], kwargs: Mapping[str, Any]) -> None:
+            acting.set(who)
+            part, name = method.split(".")
+            result: Any = None
+            failure: Exception | None = None
+            try:
+                result = await getattr(parts[part], name)(*args, **kwargs)
+            except StoreError as error:
+                failure = error
+            except Exception as error:  # noqa: BLE001 - handed to whoever asked
+                # only its text can be sent: whatever it is, it is a mistake of ours
+                failure = RuntimeError(f"{method}: {error!r}")
+                failure.add_note(traceback.format_exc())
+            writer.write(_framed((number, result, failure)))
+
+        with contextlib.suppress(asyncio.IncompleteReadError, OSError):
+            while True:
+                task = asyncio.create_task(do(*pickle.loads(await _message(reader))))
+                under_way.add(task)
+                task.add_done_callback(under_way.discard)
+        if under_way:
+            await asyncio.wait(under_way)
+        await store.close()
+        writer.close()
+
+
+@contextlib.contextmanager
+def _alone(directory: Path) -> Iterator[None]:
+    """Wait for the one of a service that was killed just now: it may still commit what it had begun."""
+    lock = os.open(directory / ".writing", os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o644)
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(lock)
