@@ -152,7 +152,11 @@ def _work(end: socket.socket, others: socket.socket) -> None:
 async def _answer(end: socket.socket) -> None:
     """Do what is asked, in the order in which it is asked, until the service has closed its end."""
     reader, writer = await asyncio.open_unix_connection(sock=end)
-    number, _, _, (url, data_dir, backup), _ = pickle.loads(await _message(reader))
+    try:
+        first = await _message(reader)
+    except asyncio.IncompleteReadError:  # the service couldn't even begin
+        return
+    number, _, _, (url, data_dir, backup), _ = pickle.loads(first)
     with _alone(data_dir):
         try:
             store = await Store.open(url, data_dir, backup=backup)
