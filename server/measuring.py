@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import time
 
 from server.messages import FeedbackStored, FeedbackUndone, FrameHeader, StreamEvent
 from server.publisher import Publisher
@@ -13,6 +14,8 @@ log = logging.getLogger(__name__)
 
 EVERY = 5.0
 """Seconds between two estimates at least; one over thousands of labels takes a fraction of one, on another thread."""
+SHARE = 10
+"""Those over a million take seconds: estimates are computed no more than about a tenth of the time."""
 
 
 class Measuring:
@@ -48,10 +51,11 @@ class Measuring:
 
     async def _measure(self) -> None:
         while self._due:
+            began = time.monotonic()
             for experiment_id in tuple(self._due):
                 self._due.discard(experiment_id)
                 try:
                     await self._store.quality.measure(experiment_id)
                 except StoreError as error:
                     log.warning("experiment %d: its trainers could not be measured: %s", experiment_id, error)
-            await asyncio.sleep(self._every)
+            await asyncio.sleep(max(self._every, SHARE * (time.monotonic() - began)))

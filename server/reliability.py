@@ -7,7 +7,7 @@ few labels near the average one, as in Bayesian classifier combination (Kim and 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,11 +25,11 @@ STEPS, CLOSE = 200, 1e-7
 
 @dataclass(frozen=True)
 class Said:
-    """One trainer's click on one proposal: -1, 0 or +1."""
+    """Who said what: ids of proposal and trainer, and -1, 0 or +1; (N,) each."""
 
-    proposal: int
-    trainer: int
-    value: int
+    proposal: NDArray[np.int64]
+    trainer: NDArray[np.int32]
+    value: NDArray[np.int8]
 
 
 @dataclass(frozen=True)
@@ -57,55 +57,53 @@ class Reliability:
 
 @dataclass(frozen=True)
 class Estimate:
-    """truth: proposal -> probability that it is good. trainers: by their id."""
+    """truth: (M,) probability that each of the `proposals`, by id, is good. trainers: by their id."""
 
-    truth: Mapping[int, float]
+    proposals: NDArray[np.int64]
+    truth: Array
     trainers: Mapping[int, Reliability]
 
 
-def estimate(
-    said: Sequence[Said], known: Mapping[int, int], *, correct: float = CORRECT, other: float = OTHER
-) -> Estimate:
+def estimate(said: Said, known: Mapping[int, int], *, correct: float = CORRECT, other: float = OTHER) -> Estimate:
     """The truth of each proposal, and how far each trainer is to be trusted. known: proposal -> +1 or -1."""
-    if not said:
-        return Estimate({}, {})
-    proposals, item = np.unique([s.proposal for s in said], return_inverse=True)
-    trainers, who = np.unique([s.trainer for s in said], return_inverse=True)
-    value = np.array([s.value for s in said])
-    fixed = np.array([known.get(int(p), 0) for p in proposals])
+    proposals, item = np.unique(said.proposal, return_inverse=True)
+    trainers, who = np.unique(said.trainer, return_inverse=True)
+    if not len(proposals):
+        return Estimate(proposals, np.zeros(0), {})
+    fixed = np.array([known.get(proposal, 0) for proposal in proposals.tolist()])
     prior = np.full((2, 3), other)
     prior[0, 0] = prior[1, 2] = correct
-    truth = _converged(item, who, value, fixed, np.tile(prior, (len(trainers), 1, 1)))
-    heard = np.bincount(item)
-    informative = (value != 0) & ((heard[item] > 1) | (fixed[item] != 0))
-    right = np.where(value > 0, truth[item, 1], truth[item, 0])
+    truth = _converged(item, who * 3 + said.value + 1, fixed, np.tile(prior, len(trainers)))
+    informative = (said.value != 0) & ((np.bincount(item) > 1) | (fixed != 0))[item]
+    right = np.where(said.value > 0, truth[1, item], truth[0, item])
+    labels = np.bincount(who)
+    count, expected = (np.bincount(who[informative], w, len(trainers)) for w in (None, right[informative]))
     return Estimate(
-        {int(p): float(good) for p, good in zip(proposals, truth[:, 1], strict=True)},
-        {int(t): _reliability(informative[who == n], right[who == n]) for n, t in enumerate(trainers)},
+        proposals,
+        truth[1],
+        {
+            trainer: _reliability(int(labels[n]), int(count[n]), float(expected[n]))
+            for n, trainer in enumerate(trainers.tolist())
+        },
     )
 
 
-def _converged(
-    item: NDArray[np.intp],
-    who: NDArray[np.intp],
-    value: NDArray[np.int64],
-    fixed: NDArray[np.int64],
-    prior: Array,
-) -> Array:
-    """(N, 2) probabilities that each proposal is bad and good, after EM. prior: counts by trainer, truth, label."""
+def _converged(item: NDArray[np.intp], word: NDArray[np.intp], fixed: NDArray[np.int64], prior: Array) -> Array:
+    """(2, M) probabilities that each proposal is bad and good, after EM.
+
+    item, word: (N,) which proposal, and three times the trainer, plus 0 for bad, 1 for neutral, 2 for good. fixed: (M,)
+    answers. prior: (2, words) pseudo-counts by truth.
+    """
+    size, words = len(fixed), prior.shape[1]
     # each starts as its good and bad labels say
-    truth = np.full((len(fixed), 2), 0.5)
-    np.add.at(truth, item, np.stack((value < 0, value > 0), axis=1))
-    truth = _clamped(truth, fixed)
+    truth = _clamped(0.5 + np.stack([np.bincount(item[word % 3 == said], minlength=size) for said in (0, 2)]), fixed)
     weight = float(prior.min())
     for _ in range(STEPS):
-        counts = prior.copy()
-        np.add.at(counts.swapaxes(1, 2), (who, value + 1), truth[item])
-        odds = np.log(counts) - np.log(counts.sum(axis=2, keepdims=True))
-        share = np.log(truth.sum(axis=0) + weight) - np.log(len(truth) + 2 * weight)
-        evidence = np.tile(share, (len(truth), 1))
-        np.add.at(evidence, item, odds[who, :, value + 1])
-        updated = _clamped(np.exp(evidence - evidence.max(axis=1, keepdims=True)), fixed)
+        counts = (prior + [np.bincount(word, each[item], words) for each in truth]).reshape(2, -1, 3)
+        odds = (np.log(counts) - np.log(counts.sum(axis=2, keepdims=True))).reshape(2, -1)
+        share = np.log(truth.sum(axis=1, keepdims=True) + weight) - np.log(size + 2 * weight)
+        evidence = share + [np.bincount(item, each[word], size) for each in odds]
+        updated = _clamped(np.exp(evidence - evidence.max(axis=0)), fixed)
         change = float(np.abs(updated - truth).max())
         truth = updated
         if change < CLOSE:
@@ -114,12 +112,12 @@ def _converged(
 
 
 def _clamped(truth: Array, fixed: NDArray[np.int64]) -> Array:
-    truth = truth / truth.sum(axis=1, keepdims=True)
-    truth[fixed < 0] = (1.0, 0.0)
-    truth[fixed > 0] = (0.0, 1.0)
+    truth = truth / truth.sum(axis=0)
+    truth[:, fixed < 0] = ((1.0,), (0.0,))
+    truth[:, fixed > 0] = ((0.0,), (1.0,))
     return truth
 
 
-def _reliability(informative: NDArray[np.bool_], right: Array) -> Reliability:
-    count, expected = int(informative.sum()), float(right[informative].sum())
-    return Reliability(len(right), count, expected, wilson(min(expected, count), count) if count else None)
+def _reliability(labels: int, informative: int, right: float) -> Reliability:
+    interval = wilson(min(right, informative), informative) if informative else None
+    return Reliability(labels, informative, right, interval)

@@ -10,15 +10,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from sqlalchemy import ColumnElement, exists, func, or_, select
+from sqlalchemy import ColumnElement, func, select
 from sqlalchemy.orm import Session
 
-from server import store_gold, store_pages, store_practice
+from server import store_clicks, store_gold, store_pages, store_practice
 from server.agreement import agreement
 from server.database import Database, writes
-from server.models import FeedbackRow, ProposalRow, RelabelRow, TrainerRow
+from server.models import FeedbackRow, ProposalRow
 from server.models_quality import GoldMarkRow, PracticeRow, ReliabilityRow
-from server.reliability import Reliability, Said, estimate
+from server.reliability import Reliability, estimate
 from server.schemas_practice import PracticeAnswer, PracticeProgress
 from server.schemas_quality import (
     AgreementInfo,
@@ -31,7 +31,7 @@ from server.schemas_quality import (
 )
 from server.store_errors import NotFound
 from server.store_experiments import load, now
-from server.trainer_figures import Click, figures
+from server.trainer_figures import NOTHING, Clicks, figures
 
 FRESH = 2.0
 """Seconds for which figures are told again instead of being computed anew: many look at them at once."""
@@ -136,10 +136,9 @@ class QualityStore:
         """Estimate each trainer's reliability anew, and store it; False where there is nothing to compare yet."""
         if not await self._database.read(lambda s: _comparable(s, experiment_id)):
             return False
-        clicks, known = await self._database.read(
-            lambda s: (_clicks(s, experiment_id), _known_answers(s, experiment_id))
+        said, known = await self._database.read(
+            lambda s: (store_clicks.said(s, experiment_id), _known_answers(s, experiment_id))
         )
-        said = [Said(c.proposal, c.trainer, c.value) for c in clicks if c.value is not None and c.status != "practice"]
         estimated = await asyncio.to_thread(estimate, said, known)
 
         def keep(session: Session) -> None:
@@ -194,40 +193,6 @@ def _closed_gold(experiment_id: int) -> tuple[ColumnElement[bool], ...]:
     )
 
 
-def _clicks(session: Session, experiment_id: int) -> list[Click]:
-    """Those that weren't taken back, by id. The newest word of a trainer who clicked late twice is the last one."""
-    relabelled = exists().where(RelabelRow.feedback_id == FeedbackRow.id).correlate(FeedbackRow)
-    query = (
-        select(
-            FeedbackRow.proposal_id,
-            FeedbackRow.trainer_id,
-            TrainerRow.name,
-            TrainerRow.kind,
-            FeedbackRow.value,
-            FeedbackRow.label,
-            FeedbackRow.status,
-            FeedbackRow.received_at,
-            relabelled,
-            ProposalRow.verdict,
-            ProposalRow.known_answer,
-        )
-        .join(ProposalRow, ProposalRow.id == FeedbackRow.proposal_id)
-        .join(TrainerRow, TrainerRow.id == FeedbackRow.trainer_id)
-        .where(
-            FeedbackRow.experiment_id == experiment_id,
-            FeedbackRow.undone_at.is_(None),
-            ProposalRow.purpose == "training",
-            # nobody's figures may tell what was said of a proposal on which others are still asked
-            or_(ProposalRow.closed_at.is_not(None), FeedbackRow.status != "stored"),
-        )
-        .order_by(FeedbackRow.id)
-    )
-    return [
-        Click(proposal, who, name, kind, value, label, status, at, bool(corrected), verdict, known)
-        for proposal, who, name, kind, value, label, status, at, corrected, verdict, known in session.execute(query)
-    ]
-
-
 def _comparable(session: Session, experiment_id: int) -> bool:
     """Whether anything can be compared: there are two trainers, or known answers. Most runs have one teacher."""
     trainers = select(FeedbackRow.trainer_id).where(FeedbackRow.experiment_id == experiment_id).distinct().limit(2)
@@ -277,24 +242,22 @@ def _row(experiment_id: int, trainer_id: int, each: Reliability) -> ReliabilityR
 
 def _tell(session: Session, experiment_id: int) -> _Told:
     began = time.monotonic()
-    clicks, estimates = _clicks(session, experiment_id), _estimates(session, experiment_id)
+    clicks = store_clicks.clicks(session, experiment_id)
+    made = figures(clicks, store_clicks.people(session, experiment_id), _estimates(session, experiment_id))
     told = LabelQuality(
         experiment_id=experiment_id,
         agreement=_agreement(clicks),
         gold=session.scalar(select(func.count(ProposalRow.id)).where(*_closed_gold(experiment_id))) or 0,
-        trainers=figures(clicks, estimates),
+        trainers=made.everybodys,
     )
-    own = {each.trainer: each for each in figures(clicks, {}, own=True) if each.kind == "person"}
+    own = {each.trainer: each for each in made.own if each.kind == "person"}
     ended = time.monotonic()
     return _Told(ended, ended - began, told, own)
 
 
-def _agreement(clicks: list[Click]) -> AgreementInfo:
-    table: defaultdict[int, dict[int, int]] = defaultdict(dict)
-    for click in clicks:
-        if click.value is not None and click.status != "practice":
-            table[click.proposal][click.trainer] = click.value
-    found = agreement(table)
+def _agreement(clicks: Clicks) -> AgreementInfo:
+    says = clicks.value != NOTHING
+    found = agreement(clicks.proposal[says], clicks.trainer[says], clicks.value[says])
     return AgreementInfo(
         alpha=found.alpha, proposals=found.proposals, labels=found.labels, trainers=found.trainers, why=found.why
     )

@@ -1,14 +1,15 @@
-"""What one trainer has done in an experiment, in figures: pure functions over everybody's clicks."""
+"""What each trainer has done in an experiment, in figures: pure functions over everybody's clicks, as columns."""
 
 from __future__ import annotations
 
-import itertools
-from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
-from datetime import datetime
+from typing import Any
 
-from server.models import COUNTING
+import numpy as np
+from numpy.typing import NDArray
+
+from server.agreement import how_many
 from server.reliability import CORRECT, OTHER
 from server.schemas_quality import Estimate, Share, TrainerFigures
 
@@ -17,37 +18,92 @@ PAUSE = 60.0
 TOLD_IN = 5
 """A trainer is told of known answers in steps of so many: nobody finds out which proposal was one."""
 UNKNOWN = Estimate(accuracy=None, interval=None, informative=0, weight=CORRECT / (CORRECT + OTHER), at=None)
+NOTHING = 2
+"""In a column of -1, 0 and +1: there is none."""
 
-_OF_VERDICT = {"good": 1, "neutral": 0, "bad": -1}
+Bools = NDArray[np.bool_]
+Ints = NDArray[np.int64]
+Small = NDArray[np.int8]
 
 
 @dataclass(frozen=True)
-class Click:
-    """A click that wasn't taken back. value: as clicked; label: as it is now; None: can't tell."""
+class Person:
+    """Who clicks; a teacher may have a person's name."""
 
-    proposal: int
-    trainer: int
     name: str
     kind: str
-    value: int | None
-    label: int | None
-    status: str
-    at: datetime
-    relabelled: bool
-    verdict: str | None
-    known_answer: int | None
 
 
-def figures(clicks: Sequence[Click], estimates: Mapping[int, Estimate], *, own: bool = False) -> list[TrainerFigures]:
-    """Everybody's, by name. own: as each may see their own, so that no single click turns out to be a known answer."""
-    mine: defaultdict[int, list[Click]] = defaultdict(list)
-    theirs: defaultdict[int, list[Click]] = defaultdict(list)
-    for click in clicks:
-        if click.status != "practice":
-            mine[click.trainer].append(click)
-            theirs[click.proposal].append(click)
-    made = [_figures(by, theirs, None if own else estimates.get(who, UNKNOWN)) for who, by in mine.items()]
-    return sorted(made, key=lambda each: (each.kind, each.trainer))
+@dataclass(frozen=True)
+class Clicks:
+    """Those that weren't taken back, without practice, in the order they came: (N,) each.
+
+    proposal, trainer: ids. value: as clicked; label: as it is now; verdict, known: the proposal's; each -1, 0, +1 or
+    `NOTHING`. counted: not late. at: microseconds since the epoch.
+    """
+
+    proposal: Ints
+    trainer: NDArray[np.int32]
+    value: Small
+    label: Small
+    counted: Bools
+    relabelled: Bools
+    verdict: Small
+    known: Small
+    at: Ints
+
+
+@dataclass(frozen=True)
+class Figures:
+    """By kind and name. own: as each may see their own, so that no single click turns out to be a known answer."""
+
+    everybodys: list[TrainerFigures]
+    own: list[TrainerFigures]
+
+
+def figures(clicks: Clicks, people: Mapping[int, Person], estimates: Mapping[int, Estimate]) -> Figures:
+    """Of everybody who has clicked. people: by id, and estimates, where there are any."""
+    if not len(clicks.trainer):
+        return Figures([], [])
+    trainers, who = np.unique(clicks.trainer, return_inverse=True)
+    _, item = np.unique(clicks.proposal, return_inverse=True)
+    says = clicks.value != NOTHING
+    judged = (np.bincount(item)[item] > 1) & (clicks.verdict != NOTHING)
+    agrees = clicks.verdict == clicks.value
+    contradicted = (clicks.label != clicks.value) | (judged & ~agrees)
+    alike, others = _others(item[says], who[says], clicks.value[says], len(trainers))
+    counts: dict[str, Ints] = {
+        "good": np.bincount(who[clicks.counted & (clicks.label == 1)], minlength=len(trainers)),
+        "neutral": np.bincount(who[clicks.counted & (clicks.label == 0)], minlength=len(trainers)),
+        "bad": np.bincount(who[clicks.counted & (clicks.label == -1)], minlength=len(trainers)),
+        "cant_tell": np.bincount(who[clicks.counted & (clicks.label == NOTHING)], minlength=len(trainers)),
+        "late": np.bincount(who[~clicks.counted], minlength=len(trainers)),
+        "relabelled": np.bincount(who[clicks.relabelled], minlength=len(trainers)),
+    }
+    made = Figures([], [])
+    for n, (trainer, mine) in enumerate(zip(trainers.tolist(), _by(who, len(trainers)), strict=True)):
+        gold = mine[clicks.known[mine] != NOTHING]
+        hits = clicks.value[gold] == clicks.known[gold]
+        told = hits[: len(hits) // TOLD_IN * TOLD_IN]
+        numbers: dict[str, Any] = {name: int(column[n]) for name, column in counts.items()}
+        person = people[trainer]
+        full = TrainerFigures(
+            trainer=person.name,
+            kind="teacher" if person.kind == "teacher" else "person",
+            labels=numbers["good"] + numbers["neutral"] + numbers["bad"],
+            **numbers,
+            per_minute=_pace(clicks.at[mine]),
+            with_verdicts=_share(agrees[mine[(says & judged)[mine]]]),
+            with_others=Share(count=int(alike[n]), of=int(others[n])),
+            gold=_share(hits),
+            streak=_streak(contradicted[mine[(says & clicks.counted)[mine]]]),
+            estimate=estimates.get(trainer, UNKNOWN),
+        )
+        made.everybodys.append(full)
+        made.own.append(full.model_copy(update={"gold": _share(told), "estimate": None}))
+    for each in (made.everybodys, made.own):
+        each.sort(key=lambda one: (one.kind, one.trainer))
+    return made
 
 
 def nothing_yet(name: str) -> TrainerFigures:
@@ -60,56 +116,35 @@ def nothing_yet(name: str) -> TrainerFigures:
     )
 
 
-def _figures(own: Sequence[Click], all_of: Mapping[int, Sequence[Click]], estimate: Estimate | None) -> TrainerFigures:
-    counted = [click for click in own if click.status in COUNTING]
-    labels = [click.label for click in counted if click.label is not None]
-    gold = [click.value == click.known_answer for click in own if click.known_answer is not None]
-    told = gold[: len(gold) // TOLD_IN * TOLD_IN] if estimate is None else gold
-    shared = [click for click in own if click.value is not None and len(all_of[click.proposal]) > 1]
-    judged = [click for click in shared if click.verdict is not None]
-    pairs = [
-        click.value == other.value
-        for click in shared
-        for other in all_of[click.proposal]
-        if other.trainer != click.trainer and other.value is not None
-    ]
-    return TrainerFigures(
-        trainer=own[0].name,
-        kind="teacher" if own[0].kind == "teacher" else "person",
-        labels=len(labels),
-        good=labels.count(1),
-        neutral=labels.count(0),
-        bad=labels.count(-1),
-        cant_tell=len(counted) - len(labels),
-        late=len(own) - len(counted),
-        relabelled=sum(click.relabelled for click in own),
-        per_minute=_pace([click.at for click in own]),
-        with_verdicts=Share(count=sum(map(_agrees, judged)), of=len(judged)),
-        with_others=Share(count=sum(pairs), of=len(pairs)),
-        gold=Share(count=sum(told), of=len(told)),
-        streak=_streak(counted, all_of),
-        estimate=estimate,
-    )
+def _by(who: Ints, trainers: int) -> list[Ints]:
+    """Which clicks are each trainer's, in the order they came."""
+    return np.split(np.argsort(who, kind="stable"), np.cumsum(np.bincount(who, minlength=trainers))[:-1])
 
 
-def _agrees(click: Click) -> bool:
-    return click.verdict is not None and _OF_VERDICT[click.verdict] == click.value
+def _others(item: Ints, who: Ints, value: Small, trainers: int) -> tuple[Ints, Ints]:
+    """By trainer: what others said of the same proposals, word by word; how much of it agrees, and how much it is."""
+    _, pair = np.unique(item * trainers + who, return_inverse=True)
+    everybodys, mine = how_many(item, value), how_many(pair, value)
+    alike = everybodys[item, value + 1] - mine[pair, value + 1]
+    others = everybodys.sum(axis=1)[item] - mine.sum(axis=1)[pair]
+    return _summed(who, alike, trainers), _summed(who, others, trainers)
 
 
-def _streak(counted: Sequence[Click], all_of: Mapping[int, Sequence[Click]]) -> int:
-    length = 0
-    for click in reversed(counted):
-        if click.value is None:
-            continue
-        alone = len(all_of[click.proposal]) == 1 or click.verdict is None
-        if click.label != click.value or not (alone or _agrees(click)):
-            break
-        length += 1
-    return length
+def _summed(who: Ints, what: Ints, trainers: int) -> Ints:
+    return np.bincount(who, weights=what, minlength=trainers).astype(np.int64)
 
 
-def _pace(times: Sequence[datetime]) -> float | None:
+def _share(hits: Bools) -> Share:
+    return Share(count=int(hits.sum()), of=len(hits))
+
+
+def _streak(contradicted: Bools) -> int:
+    """How many of the newest ones aren't."""
+    return int(contradicted[::-1].argmax()) if contradicted.any() else len(contradicted)
+
+
+def _pace(at: Ints) -> float | None:
     """Clicks a minute while at work; None before there are two in a row."""
-    gaps = [(after - before).total_seconds() for before, after in itertools.pairwise(times)]
-    worked = [gap for gap in gaps if gap <= PAUSE]
-    return 60 * len(worked) / sum(worked) if sum(worked) > 0 else None
+    gaps = np.diff(at) / 1e6
+    worked = gaps[gaps <= PAUSE]
+    return float(60 * len(worked) / worked.sum()) if worked.sum() > 0 else None

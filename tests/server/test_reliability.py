@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from server.agreement import agreement
-from server.reliability import Said, estimate
+from server.agreement import Agreement, agreement
+from server.reliability import Estimate, Said, estimate
 
 SKILL = {0: 0.9, 1: 0.8, 2: 0.65, 3: 0.4}
 CROWD_KIT = (
@@ -74,53 +74,69 @@ CROWD_KIT = (
 """Probability that each call of `crowd(7)` is good, by crowd-kit 1.4.2: DawidSkene(n_iter=500, tol=1e-9)."""
 
 
-def crowd(seed: int, calls: int = 60) -> tuple[list[Said], dict[int, int]]:
+Word = tuple[int, int, int]
+"""Proposal, trainer, and what they said."""
+
+
+def estimated(said: list[Word], known: dict[int, int], **pseudo_counts: float) -> Estimate:
+    """From words instead of columns."""
+    return estimate(Said(*np.array(said, np.int64).reshape(-1, 3).T), known, **pseudo_counts)
+
+
+def agreed(clicks: dict[int, dict[int, int]]) -> Agreement:
+    """Of proposal -> trainer -> value."""
+    words = [(unit, trainer, value) for unit, values in clicks.items() for trainer, value in values.items()]
+    return agreement(*np.array(words, np.int64).reshape(-1, 3).T)
+
+
+def crowd(seed: int, calls: int = 60) -> tuple[list[Word], dict[int, int]]:
     """Trainers of the above skill, each judging three quarters of the calls; and the truth."""
     random, said, truth = np.random.default_rng(seed), [], {}
     for call in range(calls):
         truth[call] = 1 if random.random() < 0.45 else -1
         for trainer, skill in SKILL.items():
             if random.random() < 0.75:
-                said.append(Said(call, trainer, truth[call] if random.random() < skill else -truth[call]))
+                said.append((call, trainer, truth[call] if random.random() < skill else -truth[call]))
     return said, truth
 
 
 def test_without_pseudo_counts_it_is_dawid_and_skene_as_crowd_kit_has_it() -> None:
     said, _ = crowd(7)
-    found = estimate(said, {}, correct=1e-9, other=1e-9).truth
-    assert [found[call] for call in range(60)] == pytest.approx(CROWD_KIT, abs=1e-4)
+    found = estimated(said, {}, correct=1e-9, other=1e-9)
+    assert found.proposals.tolist() == list(range(60))
+    assert found.truth == pytest.approx(CROWD_KIT, abs=1e-4)
 
 
 def test_trainers_are_told_apart_and_known_answers_find_out_a_majority_that_errs() -> None:
     said, truth = crowd(3, 400)
-    found = estimate(said, {call: truth[call] for call in range(0, 400, 10)}).trainers
+    found = estimated(said, {call: truth[call] for call in range(0, 400, 10)}).trainers
     for trainer, skill in SKILL.items():
         interval = found[trainer].interval
         assert interval is not None
         assert found[trainer].accuracy == pytest.approx(skill, abs=0.1)
         assert found[trainer].weight == pytest.approx(found[trainer].accuracy, abs=0.02)
     # two say the opposite of the truth together, one is right: only known answers can tell who
-    said = [Said(call, trainer, (1, -1, -1)[trainer] * (-1) ** call) for call in range(40) for trainer in range(3)]
-    fooled = estimate(said, {}).trainers
-    told = estimate(said, {call: (-1) ** call for call in range(12)}).trainers
+    said = [(call, trainer, (1, -1, -1)[trainer] * (-1) ** call) for call in range(40) for trainer in range(3)]
+    fooled = estimated(said, {}).trainers
+    told = estimated(said, {call: (-1) ** call for call in range(12)}).trainers
     assert fooled[0].weight < 0.5 < fooled[1].weight
     assert told[1].weight < 0.5 < told[0].weight
 
 
 def test_of_a_trainer_who_is_alone_nothing_is_known_until_answers_are() -> None:
-    said = [Said(call, 5, 1) for call in range(30)]
-    (alone,) = estimate(said, {}).trainers.values()
+    said = [(call, 5, 1) for call in range(30)]
+    (alone,) = estimated(said, {}).trainers.values()
     assert (alone.labels, alone.informative, alone.accuracy, alone.interval) == (30, 0, None, None)
     assert alone.weight == pytest.approx(2 / 3)
-    (held_to,) = estimate(said, {0: 1, 1: 1, 2: -1}).trainers.values()
+    (held_to,) = estimated(said, {0: 1, 1: 1, 2: -1}).trainers.values()
     assert (held_to.informative, held_to.right) == (3, 2)
     assert held_to.weight == pytest.approx(4 / 6)
-    assert estimate([], {}).trainers == {}
+    assert estimated([], {}).trainers == {}
 
 
 def test_neutral_says_neither_and_harms_nobodys_accuracy() -> None:
-    said = [Said(call, trainer, 1) for call in range(10) for trainer in (1, 2)] + [Said(c, 3, 0) for c in range(10)]
-    found = estimate(said, {}).trainers
+    said = [(call, trainer, 1) for call in range(10) for trainer in (1, 2)] + [(c, 3, 0) for c in range(10)]
+    found = estimated(said, {}).trainers
     assert (found[3].labels, found[3].informative) == (10, 0)
     assert found[1].right == pytest.approx(10, abs=0.2)
 
@@ -128,17 +144,17 @@ def test_neutral_says_neither_and_harms_nobodys_accuracy() -> None:
 def test_alpha_is_the_one_worked_out_by_hand() -> None:
     # labels: two bad, one neutral, three good. Ordinal distances squared: neutral-good (1/2 + 3/2)^2 = 4, bad-neutral
     # (2/2 + 1/2)^2 = 2.25, bad-good (2/2 + 1 + 3/2)^2 = 12.25. Observed 2 x 4; expected 2 x (4.5 + 73.5 + 12) / 5 = 36
-    found = agreement({1: {1: 1, 2: 1}, 2: {1: -1, 2: -1}, 3: {1: 0, 2: 1}, 4: {1: -1}})
+    found = agreed({1: {1: 1, 2: 1}, 2: {1: -1, 2: -1}, 3: {1: 0, 2: 1}, 4: {1: -1}})
     assert found.alpha == pytest.approx(1 - 8 / 36)
     assert (found.proposals, found.labels, found.trainers) == (3, 6, 2)
-    opposite = agreement({unit: {1: value, 2: -value} for unit, value in enumerate((-1, 1, -1, 1))}).alpha
+    opposite = agreed({unit: {1: value, 2: -value} for unit, value in enumerate((-1, 1, -1, 1))}).alpha
     assert opposite is not None
     assert opposite < -0.5
 
 
 def test_bad_against_good_is_further_apart_than_against_neutral() -> None:
     shared = {unit: {1: value, 2: value} for unit, value in enumerate((-1, 0, 1))}
-    near, far = agreement(shared | {9: {1: -1, 2: 0}}).alpha, agreement(shared | {9: {1: -1, 2: 1}}).alpha
+    near, far = agreed(shared | {9: {1: -1, 2: 0}}).alpha, agreed(shared | {9: {1: -1, 2: 1}}).alpha
     assert near is not None
     assert far is not None
     assert near > far
@@ -150,7 +166,7 @@ def test_where_agreement_cant_be_told_it_says_why() -> None:
         ({1: {1: 1}, 2: {2: -1}}, "no proposal was judged by two"),
         ({1: {1: 1, 2: 1}, 2: {1: 1, 2: 1}}, "all labels are the same"),
     ):
-        found = agreement(clicks)
+        found = agreed(clicks)
         assert found.alpha is None
         assert found.why is not None
         assert why in found.why
