@@ -28,6 +28,7 @@ from server.messages import (
     ProposalClosed,
     ProposalOpened,
 )
+from server.opened import Opened
 from server.robots import Robot
 from server.schemas import (
     Aggregation,
@@ -72,9 +73,7 @@ class Desk:
         self._experiment = experiment
         self.wanted = wanted
         """How many proposals are to be open, from 1."""
-        self._open: dict[int, Proposal] = {}
-        self._closed: dict[int, Proposal] = {}  # late clicks of a crowd find theirs without the store
-        self._since: dict[int, float] = {}
+        self._open = Opened()
         self._considered: set[int] = set()
         self._no_more: int | None = None
         """As many are open as there are different ones to propose; None: more may be asked for."""
@@ -88,7 +87,7 @@ class Desk:
     @property
     def opened(self) -> list[Proposal]:
         """What waits for clicks, oldest first."""
-        return sorted(self._open.values(), key=lambda proposal: proposal.number)
+        return list(self._open)
 
     @property
     def missing(self) -> int:
@@ -105,7 +104,7 @@ class Desk:
 
     def find(self, proposal_id: int) -> Proposal | None:
         """A proposal that is open, or was a moment ago."""
-        return self._open.get(proposal_id) or self._closed.get(proposal_id)
+        return self._open.find(proposal_id)
 
     async def present(self, drawn: NewProposal) -> None:
         """Open a proposal, unless an undo has just opened one. It is stored before it is shown.
@@ -183,7 +182,7 @@ class Desk:
         refused = self._seating.why_not(body.trainer, clicked) if clicked is not None and kind == "person" else None
         ahead = None
         if clicked is not None and refused is None and self._ends(body) and not self._robot.unclear:
-            ahead = self.ahead.take({proposal.observation_id for proposal in self._open.values()})
+            ahead = self.ahead.take({proposal.observation_id for proposal in self._open})
         had = kind == "person" and self._seating.proposal_of(body.trainer) == proposal_id
         storing = self._store.submit_feedback(proposal_id, body, kind=kind, refused=refused, had=had)
         submission: Submission
@@ -276,7 +275,7 @@ class Desk:
     async def withdraw(self, reason: CloseReason = CloseReason.WITHDRAWN, only: Collection[int] | None = None) -> None:
         """Close every open proposal, or these, without a verdict; where a click was quicker, it counts."""
         async with self.turn:
-            for proposal_id in [each for each in self._open if only is None or each in only]:
+            for proposal_id in [each.id for each in self._open if only is None or each.id in only]:
                 closed = await self._store.close_proposal(proposal_id, reason)
                 if closed.close_reason is not CloseReason.JUDGED:
                     self._gone(proposal_id)
@@ -341,28 +340,23 @@ class Desk:
             self._publish(ProposalClosed(proposal=closed))
 
     def _show(self, proposal: Proposal) -> None:
-        self._open[proposal.id] = proposal
-        self._since[proposal.id] = time.monotonic()
+        self._open.put(proposal)
         self._publish(ProposalOpened(proposal=proposal))
 
     def _change(self, proposal: Proposal) -> None:
-        self._open[proposal.id] = proposal
+        self._open.change(proposal)
         self._publish(ProposalChanged(proposal=proposal))
 
     def _gone(self, proposal_id: int) -> None:
         """It isn't open any more; another may be proposed."""
-        if (closed := self._open.pop(proposal_id, None)) is not None:
-            self._closed = dict([*self._closed.items(), (proposal_id, closed)][-64:])
-        self._since.pop(proposal_id, None)
+        self._open.close(proposal_id)
         self._considered.discard(proposal_id)
         self._no_more = None
         self._ledger.release(proposal_id)
 
     def _placed(self, drawn: NewProposal) -> NewProposal:
         """In the first slot that is free, for whoever is there now."""
-        taken = {proposal.slot for proposal in self._open.values()}
-        slot = next(slot for slot in range(len(taken) + 1) if slot not in taken)
-        return dataclasses.replace(drawn, slot=slot, electorate=tuple(self._seating.names))
+        return dataclasses.replace(drawn, slot=self._open.free_slot, electorate=tuple(self._seating.names))
 
     def _ends(self, body: FeedbackCreate) -> bool:
         """Whether this click alone closes its proposal, without a motion."""
@@ -385,15 +379,12 @@ class Desk:
     async def _time_out(self) -> None:
         limit = self._experiment().feedback_timeout
         if limit is not None:
-            over = time.monotonic() - limit
-            await self.withdraw(CloseReason.TIMED_OUT, [each for each, since in self._since.items() if since <= over])
+            await self.withdraw(CloseReason.TIMED_OUT, self._open.overdue(limit))
 
     def _left(self) -> float | None:
         """Seconds until the time of the oldest proposal is over; None: they have all the time."""
         limit = self._experiment().feedback_timeout
-        if limit is None or not self._since:
-            return None
-        return max(0.0, min(self._since.values()) + limit - time.monotonic())
+        return None if limit is None else self._open.left(limit)
 
     async def _news_or_death(self, seconds: float | None) -> bool:
         robot, learner = self._robot.post.death(), self._crew.learner.death()
