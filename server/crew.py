@@ -81,6 +81,8 @@ class Crew:
         self._together: list[StoredLabel] | None = None
         self._missed: list[tuple[str, dict[str, Any]]] = []
         """What the learner is told once it is there, in the order in which it came: a newer correction comes later."""
+        self._aside: set[int] = set()
+        """Labels that the learner has let go of, and that may come again: an algorithm takes an id only once."""
         self._told: set[asyncio.Task[None]] = set()
         self.metrics: dict[str, float] = {}
         """What the learner's newest gradient step reported."""
@@ -182,8 +184,13 @@ class Crew:
         """Hand over labels; they are with the learner before any request that is sent later."""
         if self._together is not None:
             self._together += labels
-        elif labels:
-            self._tell_learner("add", labels=[wire(label) for label in labels])
+            return
+        again = [label for label in labels if label.feedback_id in self._aside]
+        for label in again:  # first: whatever owes gradient steps comes last, and they are taken from all of these
+            self._aside.discard(label.feedback_id)
+            self._tell_learner("relabel", label=wire(label))
+        if new := [label for label in labels if label not in again]:
+            self._tell_learner("add", labels=[wire(label) for label in new])
 
     @contextmanager
     def together(self) -> Iterator[None]:
@@ -201,6 +208,14 @@ class Crew:
         if self._together is not None:
             self._together = [label for label in self._together if label.feedback_id != feedback_id]
         self._tell_learner("forget", feedback_id=feedback_id)
+
+    def set_aside(self, feedback_ids: Iterable[int]) -> None:
+        """Take labels back that come again by `learn` if there is a verdict on their proposal again."""
+        waiting = {label.feedback_id for label in self._together or ()}  # the learner hasn't heard of these
+        for feedback_id in feedback_ids:
+            self.forget(feedback_id)
+            if feedback_id not in waiting:
+                self._aside.add(feedback_id)
 
     def relabel(self, feedback_id: int, label: StoredLabel | None) -> None:
         """Have the learner hold this label in the place of the one it has of this feedback; None: none at all."""
@@ -254,6 +269,7 @@ class Crew:
     async def _catch_up(self, learner: Worker) -> None:
         experiment, deadline = self._experiment, self._settings.learner_deadline
         self._missed.clear()
+        self._aside.clear()
         configured = await learner.call(
             "configure",
             deadline=deadline,

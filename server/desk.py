@@ -217,6 +217,7 @@ class Desk:
             keep = self._seating.others_at(feedback.trainer)
             undone = await self._store.undo_feedback(feedback.id, keep=keep, by=by)
             self._crew.forget(feedback.id)
+            self._crew.set_aside(undone.unlearned)
             self._publish(FeedbackUndone.of(undone.feedback))
             reopened = undone.reopened
             if reopened.closed_at is None:

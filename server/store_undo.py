@@ -12,6 +12,7 @@ from server.schemas import CloseReason
 from server.store_closing import close, count, reopen
 from server.store_errors import Conflict, NotFound
 from server.store_experiments import journal, load, now
+from server.store_labels import labels_of
 from server.store_proposals import load_proposal
 from server.store_values import Undone
 from server.store_votes import verdict_of, votes
@@ -101,17 +102,20 @@ def undo(session: Session, feedback_id: int, *, keep: Collection[int] = (), by: 
     decided = row.status == "overtaken" or (
         judged.verdict is not None and verdict_of(session, experiment, judged, left) == judged.verdict
     )
+    unlearned: list[int] = []
     withdrawn = None if decided else _make_room(session, judged, keep)
     if judged.closed_at is not None and decided:
         count(experiment, row.label, -1)
     elif judged.closed_at is not None:
+        unlearned = [label.feedback_id for label in labels_of(session, judged.id) if label.feedback_id != row.id]
         reopen(session, judged)
     row.undone_at = now()
     experiment.updated_at = now()
     session.flush()
     journal(session, row.experiment_id, "undone", feedback=row.id, proposal=judged.id, by=row.trainer.name)
     session.refresh(judged, ["heard"])
-    return Undone(feedback_wire(row), proposal_wire(judged), proposal_wire(withdrawn) if withdrawn else None)
+    told = proposal_wire(withdrawn) if withdrawn else None
+    return Undone(feedback_wire(row), proposal_wire(judged), told, unlearned)
 
 
 def _make_room(session: Session, judged: ProposalRow, keep: Collection[int]) -> ProposalRow | None:

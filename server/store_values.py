@@ -106,12 +106,14 @@ class Relabelled:
 class Undone:
     """A click taken back: its proposal is open again, and the one opened meanwhile is withdrawn.
 
-    Where others' votes lead to the same verdict, `reopened` is still closed.
+    Where others' votes lead to the same verdict, `reopened` is still closed. unlearned: feedback ids of the others'
+    labels on it, which train no more until there is a verdict again.
     """
 
     feedback: Feedback
     reopened: Proposal
     withdrawn: Proposal | None
+    unlearned: Sequence[int] = ()
 
 
 @dataclass(frozen=True)

@@ -23,6 +23,7 @@ class Candid(Scripted):
     def __init__(self, problem: Problem, settings: ScriptedSettings, seed: int) -> None:
         super().__init__(problem, settings, seed)
         self._held: dict[int, Label] = {}
+        self._heard: set[int] = set()
 
     def propose(self, state: Array, *, deterministic: bool = False) -> Suggestion:
         """As `Scripted`, with feedback id -> value of every label held; uncertainty: how many trainers gave them."""
@@ -32,26 +33,29 @@ class Candid(Scripted):
         return replace(suggestion, skill_probabilities=held, uncertainty=trainers)
 
     def add(self, labels: Sequence[Label]) -> None:
-        """Hold them."""
+        """Hold those whose ids are new to it."""
         super().add(labels)
-        self._held |= {label.id: label for label in labels}
+        self._held |= {label.id: label for label in labels if label.id not in self._heard}
+        self._heard |= {label.id for label in labels}
 
     def restore(self, labels: Sequence[Label]) -> None:
         """Hold these and no others."""
         self._held.clear()
+        self._heard.clear()
         self.add(labels)
 
     def recollect(self, labels: Sequence[Label]) -> None:
-        """Hold these too, as far as they aren't held."""
-        self.add([label for label in labels if label.id not in self._held])
+        """Hold these too, as far as they are new to it."""
+        self.add(labels)
 
     def forget(self, label_id: int) -> None:
-        """Hold one less."""
+        """Hold one less, which doesn't come again by `add`."""
         self._held.pop(label_id, None)
 
     def relabel(self, label: Label) -> None:
         """Hold it as it is now."""
         self._held[label.id] = label
+        self._heard.add(label.id)
 
 
 class CandidFactory:

@@ -21,8 +21,10 @@ async def _every_click_is_there_once_and_where_it_was_put(store: Store, model: E
     assert stored == [(c.id, c.click_id, c.proposal.id, c.trainer, c.value, c.status, c.undone) for c in model.clicks]
     labels = await store.labels(model.id)
     assert [(label.feedback_id, label.value) for label in labels] == [
-        (c.id, c.value) for c in model.clicks if c.counted and (c.proposal.verdict is not None or c.proposal.superseded)
+        (c.id, c.label) for c in model.clicks if c.counted and (c.proposal.verdict is not None or c.proposal.superseded)
     ]
+    # one that starts anew learns the same
+    assert {label.feedback_id: label.value for label in labels} == model.learner
 
 
 async def _nothing_moves_without_a_verdict_for_exactly_this_and_only_once(store: Store, model: Experiment) -> None:
@@ -54,7 +56,7 @@ async def _states_and_counters_are_those_of_the_rows(store: Store, model: Experi
     stored = await store.experiment(model.id)
     assert (stored.lifecycle, stored.halted) == (model.lifecycle, model.halted)
     # not while others are still asked: the counters must not tell what somebody has said
-    counted = [c.value for c in model.clicks if c.counted and not c.proposal.open]
+    counted = [c.label for c in model.clicks if c.counted and not c.proposal.open]
     counters = stored.counters
     assert (counters.feedback, counters.good, counters.neutral, counters.bad) == (
         len(counted),

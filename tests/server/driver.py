@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import tempfile
 from collections import Counter
-from collections.abc import Coroutine
+from collections.abc import Coroutine, Sequence
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
@@ -13,7 +13,9 @@ from hypothesis import strategies as st
 
 from server.lifecycle import Verb
 from server.schemas import Aggregation, CloseReason, ExecutionOutcome, ExperimentUpdate, FeedbackStatus, Lifecycle, Mode
+from server.schemas_labels import RelabelCreate
 from server.store import Conflict, Store
+from server.store_values import StoredLabel
 from tests.server.comparing import compare
 from tests.server.databases import begun, click, created, new
 from tests.server.model import AFTER, Click, Execution, Experiment, Proposal, verdict_of
@@ -83,7 +85,8 @@ class Driver:
 
     def _leave(self, model: Experiment, trainer: str) -> None:
         """Nobody waits for this trainer any more; a vote that they have cast counts."""
-        self._run(self._store.leave_electorates(model.id, [trainer]))
+        for left in self._run(self._store.leave_electorates(model.id, [trainer])):
+            self._learn(model, left.labels)
         for proposal in model.open_proposals:
             votes = model.votes(proposal)
             if trainer in proposal.electorate and trainer not in [vote.trainer for vote in votes]:
@@ -97,6 +100,8 @@ class Driver:
         changed, model.rule = model.rule != rule, rule
         closed = [p.id for p in model.open_proposals if changed and self._conclude(p, "verdict by a new rule")]
         assert [each.proposal.id for each in concluded] == closed
+        for each in concluded:
+            self._learn(model, each.labels)
 
     def _conclude(self, proposal: Proposal, how: str) -> bool:
         model = proposal.experiment
@@ -133,6 +138,7 @@ class Driver:
         self.seen["late click" if late else "overtaken label" if overtaken else "click"] += 1
         model.clicks.append(Click(answer.feedback.id, click_id, proposal, trainer, value, late, overtaken=overtaken))
         assert answer.feedback.status.value == model.clicks[-1].status
+        self._learn(model, answer.labels)
         if overtaken:
             assert [label.feedback_id for label in answer.labels] == [answer.feedback.id]
         elif not late:
@@ -154,6 +160,21 @@ class Driver:
             assert answer.duplicate
             assert answer.feedback.id == known.id
             self.seen["same click again"] += 1
+
+    def _correct(self, chosen: Click, value: int) -> None:
+        """The click's label is another; its verdict stays, and so do the votes if it is open again."""
+        legal = chosen.counted and not chosen.proposal.open
+        body = RelabelCreate(click_id=self._new_id(), value=value, trainer=chosen.trainer)
+        corrected = self._expect(legal, self._store.relabel(chosen.id, body, anybodys=False))
+        if corrected is None:
+            return
+        self.seen["corrected"] += 1
+        chosen.corrected = value
+        if corrected.label is not None:
+            self._learn(chosen.proposal.experiment, [corrected.label])
+
+    def _learn(self, model: Experiment, labels: Sequence[StoredLabel]) -> None:
+        model.learner |= {label.feedback_id: label.value for label in labels}
 
     def _time_out(self, proposal: Proposal) -> None:
         self._run(self._store.close_proposal(proposal.id, CloseReason.TIMED_OUT))
@@ -182,6 +203,9 @@ class Driver:
             self.seen["undo after a motion"] += 1
         if undone is None:
             return
+        for feedback_id in (chosen.id, *undone.unlearned):
+            model.learner.pop(feedback_id, None)
+        self.seen["others' labels let go"] += len(undone.unlearned)
         if chosen.overtaken:  # nothing has come of it
             assert (undone.reopened.closed_at is not None, undone.withdrawn) == (True, None)
             chosen.undone = True
@@ -233,6 +257,8 @@ class Driver:
         proposal.decided |= asked
         if execution is not None:
             assert execution.parameters == proposal.parameters
+            _, labels = self._run(self._store.superseded_by(proposal.id))
+            self._learn(model, labels)
             superseded, late = model.supersede()
             self.seen["superseded"] += superseded
             self.seen["approved too late"] += late

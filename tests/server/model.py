@@ -24,10 +24,15 @@ class Click:
     late: bool
     undone: bool = False
     overtaken: bool = False
+    corrected: int | None = None
 
     @property
     def status(self) -> str:
         return "late" if self.late else "overtaken" if self.overtaken else "stored"
+
+    @property
+    def label(self) -> int:
+        return self.value if self.corrected is None else self.corrected
 
     @property
     def counted(self) -> bool:
@@ -71,6 +76,8 @@ class Experiment:
     observation: int = 0
     proposals: list[Proposal] = field(default_factory=list)
     clicks: list[Click] = field(default_factory=list)
+    learner: dict[int, int] = field(default_factory=dict)
+    """What a learner that lives on holds, feedback id -> value: by what the store has told to learn and to forget."""
     age: int = 0
 
     def tick(self) -> int:

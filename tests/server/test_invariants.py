@@ -1,5 +1,7 @@
 """No sequence of proposals, clicks, verbs and crashes breaks DESIGN.md section 5 (1, 2, 3, 5): checked against a model.
 
+Nor do a learner that lives on and one that starts anew ever learn from different labels.
+
 The model is written apart from the store and knows only what the rules say; after every step the whole database is
 compared with it.
 """
@@ -35,7 +37,7 @@ DISTURBANCES = (
     *AFTER,
     *("halt", "rearm", "mode", "episode", "look", "propose", "crash", "crash"),
     *("click", "click", "click again", *("undo",) * 5, *("begin",) * 4, "end", "time out"),
-    *("propose beside", "propose beside", "leave", "rule"),
+    *("propose beside", "propose beside", "leave", "rule", "correct", "correct"),
 )
 
 
@@ -168,6 +170,8 @@ class Machine(Driver, RuleBasedStateMachine):
             self._click_again(data.draw(st.sampled_from(model.clicks)), data)
         elif what == "undo" and model.clicks:
             self._undo(data.draw(st.sampled_from([model.clicks[-1], *model.clicks[:-6:-1]])))
+        elif what == "correct" and model.clicks:
+            self._correct(data.draw(st.sampled_from(model.clicks[:-6:-1])), data.draw(st.sampled_from([1, 0, -1])))
         elif what == "end" and model.executions:
             self._end(
                 data.draw(st.sampled_from(model.executions[:-3:-1])), data.draw(st.sampled_from(ExecutionOutcome))
@@ -203,6 +207,8 @@ def test_no_sequence_of_clicks_verbs_and_crashes_breaks_an_invariant() -> None:
         "left to a verdict",
         "verdict by a new rule",
         "undone beside",
+        "corrected",
+        "others' labels let go",
     )
     shut = (
         "undo after a motion",
