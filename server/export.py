@@ -126,8 +126,8 @@ def _reading(experiment_id: int, after: int) -> Callable[[Session], tuple[list[d
 
 def _rows(click: FeedbackRow, proposal: ProposalRow) -> list[dict[str, Any]]:
     """The click, then its corrections. What was known or said of a proposal isn't told while it is open."""
-    told = proposal.closed_at is not None or click.status != "stored"
-    known = proposal.known_answer if proposal.closed_at is not None else None
+    told = proposal.closed_at is not None
+    known = proposal.known_answer if told else None
     shared = {
         "feedback_id": click.id,
         "label_now": answer_of(click.label) if told else None,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from datetime import UTC, datetime
 from typing import Any
 
@@ -9,6 +10,7 @@ from sqlalchemy import Select, insert, select
 from sqlalchemy.orm import Session
 
 from server import store_pages
+from server.models import ProposalRow
 from server.models_base import table
 from server.models_people import AuditRow
 from server.principal import SERVICE, Principal
@@ -52,18 +54,31 @@ def page(session: Session, experiment_id: int | None, cursor: str | None, limit:
     """Newest first; of one experiment, or of everything."""
     query = _query(experiment_id)
     entries, following = store_pages.page(session, query, AuditRow.id, _wire, cursor=cursor, limit=limit)
-    return AuditPage(items=entries, next_cursor=following)
+    return AuditPage(items=_told(session, entries), next_cursor=following)
 
 
 def after(session: Session, experiment_id: int | None, last: int, limit: int) -> list[AuditEntry]:
     """The next ones after the id `last`, oldest first."""
     query = _query(experiment_id).where(AuditRow.id > last).order_by(AuditRow.id).limit(limit)
-    return [_wire(row) for row in session.scalars(query)]
+    return _told(session, [_wire(row) for row in session.scalars(query)])
 
 
 def _query(experiment_id: int | None) -> Select[Any]:
     query = select(AuditRow)
     return query if experiment_id is None else query.where(AuditRow.experiment_id == experiment_id)
+
+
+def _told(session: Session, entries: Sequence[AuditEntry]) -> list[AuditEntry]:
+    """Without the `value` of a click on a proposal on which others are still asked: that is told once it is closed."""
+    judged = {entry.subject.get("proposal") for entry in entries if entry.action == "clicked"}
+    query = select(ProposalRow.id).where(ProposalRow.id.in_(judged), ProposalRow.closed_at.is_(None))
+    asked = set(session.scalars(query)) if judged else set()
+    return [
+        entry.model_copy(update={"subject": {name: each for name, each in entry.subject.items() if name != "value"}})
+        if entry.action == "clicked" and entry.subject.get("proposal") in asked
+        else entry
+        for entry in entries
+    ]
 
 
 def _wire(row: AuditRow) -> AuditEntry:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from sqlalchemy import Select, case, func, or_, select
+from sqlalchemy import Select, case, func, select
 from sqlalchemy.orm import Session
 
 from server.models import COUNTING, FeedbackRow, ProposalRow, RelabelRow, TrainerRow
@@ -84,6 +84,6 @@ def _of(query: Select[*tuple[Any, ...]], experiment_id: int) -> Select[*tuple[An
         FeedbackRow.status != "practice",
         ProposalRow.purpose == "training",
         # nobody's figures may tell what was said of a proposal on which others are still asked
-        or_(ProposalRow.closed_at.is_not(None), FeedbackRow.status != "stored"),
+        ProposalRow.closed_at.is_not(None),
     )
     return query.join(ProposalRow, ProposalRow.id == FeedbackRow.proposal_id).where(*heard).order_by(FeedbackRow.id)

@@ -161,13 +161,14 @@ def _others(sampled: Sequence[Any]) -> list[Chart]:
 
 
 def _labels(session: Session, experiment: ExperimentRow, points: int) -> list[Any]:
-    """Means over buckets of successive labels."""
+    """Means over buckets of successive labels. Those of an open proposal are told once nobody is asked any more."""
     value = FeedbackRow.label
     label = (
         select(FeedbackRow.id, value.label("value"), ProposalRow.predicted_feedback.label("predicted"))
         .join(ProposalRow, ProposalRow.id == FeedbackRow.proposal_id)
         .where(
             ProposalRow.purpose == "training",
+            ProposalRow.closed_at.is_not(None),
             FeedbackRow.experiment_id == experiment.id,
             FeedbackRow.status.in_(COUNTING),
             FeedbackRow.undone_at.is_(None),
@@ -240,9 +241,9 @@ def _shares(counts: Mapping[int, Mapping[str, int]], skill: str) -> list[float |
 
 
 def _training() -> ColumnElement[bool]:
-    """Of a feedback: people's or a teacher's, not an evaluation's own."""
-    proposal = ProposalRow
-    return exists().where(proposal.id == FeedbackRow.proposal_id, proposal.purpose == "training")
+    """Of a feedback: people's or a teacher's, not an evaluation's own; on a proposal that is closed."""
+    of = ProposalRow
+    return exists().where(of.id == FeedbackRow.proposal_id, of.purpose == "training", of.closed_at.is_not(None))
 
 
 def _throughput(session: Session, experiment: ExperimentRow, points: int) -> Chart:

@@ -141,7 +141,7 @@ class Reads:
             if row is None:
                 raise NotFound("feedback", feedback_id)
             of = session.get_one(models.ProposalRow, row.proposal_id)
-            if of.closed_at is None and row.status == "stored" and row.trainer.name != asker:
+            if of.closed_at is None and row.trainer.name != asker:
                 raise Conflict(
                     f"what others said of proposal {of.id} is told once it is closed",
                     remedy="ask again then: others are still to judge it",
@@ -155,13 +155,16 @@ class Reads:
         return await self._one(models.FeedbackRow, feedback_id, "feedback", wire.feedback)
 
     async def feedback_of_proposal(
-        self, proposal_id: int, cursor: str | None = None, limit: int = 50, *, told: bool = False
+        self, proposal_id: int, cursor: str | None = None, limit: int = 50, *, told_to: str | None = None
     ) -> schemas.FeedbackPage:
-        """Clicks on a proposal, late and undone ones too, newest first. told: without votes on what is still open."""
+        """Clicks on a proposal, late and undone ones too, newest first.
+
+        told_to: without what anybody else has said of it while it is open; None: all.
+        """
         await self.proposal(proposal_id)
         query = _CLICKS.where(models.FeedbackRow.proposal_id == proposal_id)
-        if told:
-            query = query.where(_told())
+        if told_to is not None:
+            query = query.where(or_(_told(), _by(told_to)))
         items, after = await self._page(query, models.FeedbackRow.id, wire.feedback, cursor, limit)
         return schemas.FeedbackPage(items=items, next_cursor=after)
 
@@ -336,7 +339,6 @@ def _by(trainer: str) -> ColumnElement[bool]:
 
 
 def _told() -> ColumnElement[bool]:
-    """Not what somebody has said of a proposal on which others are still asked."""
-    row, of = models.FeedbackRow, models.ProposalRow
-    asked = exists().where(of.id == row.proposal_id, of.closed_at.is_(None))
-    return or_(row.status != "stored", ~asked)
+    """Not what somebody has said of a proposal on which others are still asked, whether it counts or not."""
+    of = models.ProposalRow
+    return ~exists().where(of.id == models.FeedbackRow.proposal_id, of.closed_at.is_(None))

@@ -59,17 +59,18 @@ async def give_feedback(
 
 @router.get("/proposals/{proposal_id}/feedback", responses=errors(404, 422))
 async def list_feedback_of_proposal(
-    service: Running, who: Who, proposal_id: Id, cursor: Cursor = None, limit: Limit = 50
+    service: Running, who: Who, proposal_id: Id, *, cursor: Cursor = None, limit: Limit = 50, trainer: Asker = None
 ) -> FeedbackPage:
-    """Feedback on one proposal, newest first; what was said is told once it is closed. Whose it is: to operators."""
-    return veiled(who, await service.store.feedback_of_proposal(proposal_id, cursor, limit, told=True))
+    """Feedback on one proposal, newest first; others' only once it is closed. Whose it is: to operators."""
+    told_to = (who.called(trainer) if trainer else who).name
+    return veiled(who, await service.store.feedback_of_proposal(proposal_id, cursor, limit, told_to=told_to))
 
 
 @router.get("/experiments/{experiment_id}/feedback", responses=errors(404, 422))
 async def list_feedback(
     service: Running, who: Who, experiment_id: Id, *, cursor: Cursor = None, limit: Limit = 50, trainer: Whose = None
 ) -> FeedbackPage:
-    """Feedback of an experiment, newest first, late and undone included; without others' votes on what is still open.
+    """Feedback of an experiment, newest first, late and undone included; without others' on what is still open.
 
     One trainer's alone with `trainer`: one's own, or anybody's where an operator asks.
     """

@@ -190,7 +190,7 @@ async def test_the_table_holds_every_click_with_its_history(tmp_path: Path) -> N
             ("click", "cant_tell", "cant_tell", "stored"),
             ("click", 1, 1, "late"),
             ("click", None, None, "stored"),  # taken back: what is open again isn't told of
-            ("click", 1, 1, "late"),
+            ("click", None, None, "late"),  # neither is what came too late on it
         ]
         assert rows[6]["undone_at"] is not None
         assert rows[0]["parameters"] == {"x": 0.5, "y": 0.0, "z": -0.09}

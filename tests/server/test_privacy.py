@@ -126,3 +126,42 @@ def test_an_event_without_a_name_is_the_same_for_all() -> None:
     told = AgreementInfo(alpha=None, proposals=1, labels=2, trainers=2, why=None)
     telling = Telling(told)
     assert json.loads(telling.to("Ann")) == json.loads(telling.to(None)) == told.model_dump()
+
+
+async def test_what_others_said_is_told_once_a_proposal_is_closed_and_ones_own_before(tmp_path: Path) -> None:
+    async with house(tmp_path) as home:
+        here = await experiment(home)
+        await home.owner.patch(f"/api/v1/experiments/{here}", json={"aggregation": "majority"})
+        invitation = await home.invite(experiment_id=here, uses=3)
+        async with (
+            await home.enter(invitation, "Ann") as ann,
+            await home.enter(invitation, "Bob") as bob,
+            await home.enter(invitation, "Cyd") as cyd,
+        ):
+            proposal = await home.live.proposal(here, electorate=("Ann", "Bob", "Cyd"))
+            path = f"/api/v1/proposals/{proposal.id}/feedback"
+            elsewhere = {"looked": {"observation_id": "another", "policy_version": 0}}
+            assert (await ann.post(path, json=home.live.click(-1))).status_code == 201
+            check_problem(await bob.post(path, json=home.live.click(1, **elsewhere)), 409)
+
+            async def told(client: Any) -> list[tuple[Any, ...]]:
+                items = (await client.get(path)).json()["items"]
+                return [(each["trainer"], each["value"], each["status"]) for each in items]
+
+            async def audited() -> list[Any]:
+                entries = (await home.owner.get("/api/v1/audit", params={"experiment": here})).json()["items"]
+                return [each["subject"].get("value") for each in entries if each["action"] == "clicked"]
+
+            async def labels() -> int:
+                charts = (await ann.get(f"/api/v1/experiments/{here}/curves")).json()["charts"]
+                return sum(each["name"] == "estimates" for each in charts)
+
+            late, vote = ("Bob", 1, "late"), ("Ann", -1, "stored")
+            assert [await told(each) for each in (ann, bob, cyd, home.owner)] == [[vote], [late], [], []]
+            check_problem(await cyd.get("/api/v1/feedback/2"), 409)
+            assert (await bob.get("/api/v1/feedback/2")).json()["value"] == 1
+            assert (await audited(), await labels()) == ([None, None], 0)
+            assert (await cyd.post(path, json=home.live.click(-1))).status_code == 201
+            assert await told(home.owner) == [("Cyd", -1, "stored"), late, vote]
+            assert len(await told(ann)) == 3
+            assert (await audited(), await labels()) == ([-1, 1, -1], 1)

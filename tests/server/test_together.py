@@ -150,7 +150,7 @@ async def test_a_majority_tells_who_was_heard_and_only_at_the_end_what_they_said
         assert not [event for event in s.seen.events[at:] if isinstance(event, FeedbackStored)]
         await say(s, "bob", proposal, 1)
         assert closed(s, proposal) is None
-        assert (await s.store.feedback_of_proposal(proposal.id, told=True)).items == []
+        assert (await s.store.feedback_of_proposal(proposal.id, told_to="nobody")).items == []
         assert len((await s.store.feedback_of_proposal(proposal.id)).items) == 2
         # cyd has gone for good: of the two who are left one said good and one bad
         s.hub.seats.of(experiment.id).depart("cyd")

@@ -612,7 +612,7 @@ export interface paths {
         };
         /**
          * List Feedback Of Proposal
-         * @description Feedback on one proposal, newest first; what was said is told once it is closed. Whose it is: to operators.
+         * @description Feedback on one proposal, newest first; others' only once it is closed. Whose it is: to operators.
          */
         get: operations["list_feedback_of_proposal"];
         put?: never;
@@ -638,7 +638,7 @@ export interface paths {
         };
         /**
          * List Feedback
-         * @description Feedback of an experiment, newest first, late and undone included; without others' votes on what is still open.
+         * @description Feedback of an experiment, newest first, late and undone included; without others' on what is still open.
          *
          *     One trainer's alone with `trainer`: one's own, or anybody's where an operator asks.
          */
@@ -9190,6 +9190,8 @@ export interface operations {
                 cursor?: string | null;
                 /** @description most items of a page */
                 limit?: number;
+                /** @description who asks, where nobody signs in: another's click is nobody's to take or to see */
+                trainer?: string | null;
             };
             header?: never;
             path: {
