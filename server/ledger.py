@@ -12,7 +12,7 @@ from typing import Any
 
 from server.crew import Crew
 from server.messages import MetricsAdded, StreamEvent
-from server.schemas import Counters, Experiment, Proposal
+from server.schemas import Experiment, Proposal
 from server.store import Store, StoreError
 from server.worker import WorkerError
 
@@ -137,13 +137,9 @@ class Ledger:
         self._task = asyncio.create_task(follow(), name=f"ledger {self._id}")
 
     async def _write(self, notes: list[_Note], learner: dict[str, float]) -> None:
-        experiment = await self._store.experiment(self._id)
-        counters = experiment.counters
-        values = [_values(note, counters) | learner for note in notes]
-        adding = (
-            self._store.add_metrics(self._id, note.number, each) for note, each in zip(notes, values, strict=True)
-        )
-        for point in await asyncio.gather(*adding):  # in one commit
+        points = [(note.number, _values(note) | learner) for note in notes]
+        written, experiment = await self._store.add_metrics(self._id, points)
+        for point in written:
             self._publish(MetricsAdded(point=point))
         self._changed(experiment)
         if self._unsaved >= self._every:
@@ -170,21 +166,13 @@ class Ledger:
                 await self._store.add_event(self._id, "checkpoint_failed", {"detail": str(error)})
 
 
-def _values(note: _Note, counters: Counters) -> dict[str, float]:
-    """What a metric point holds beside the learner's own values.
+def _values(note: _Note) -> dict[str, float]:
+    """What a metric point holds beside the learner's own values and the counters.
 
-    note: of the click; its counts are as of then. counters: as of the writing, with what came of that click.
-    good_share: of all feedback counted so far, 0 to 1. violation_ratio: violations over decision steps, which are
-    proposals that were judged; one feedback judges one proposal as long as one trainer decides. The critic's count once
-    they move.
+    good_share: of all feedback counted so far, 0 to 1.
     """
-    decisions = note.number + counters.auto_approved
     return {
         "predicted_feedback": note.predicted_feedback,
         "label": float(note.label),
-        "successes": float(counters.successes),
-        "executions": float(counters.executions),
-        "violations": float(counters.violations),
         "good_share": note.good / note.number,
-        "violation_ratio": counters.violations / decisions,
     }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, TypeVar
 
 from sqlalchemy.orm import Session
@@ -20,9 +20,16 @@ class Recording(Reads):
     """Reads, and the writes that decide nothing; `server.store.Store` adds those that do."""
 
     @writes
-    async def add_metrics(self, experiment_id: int, feedback: int, values: Mapping[str, float]) -> schemas.MetricPoint:
-        """A point of the charts at an amount of feedback."""
-        return await self._database.write(lambda s: store_records.add_metrics(s, experiment_id, feedback, values))
+    async def add_metrics(
+        self, experiment_id: int, points: Sequence[tuple[int, Mapping[str, float]]]
+    ) -> tuple[list[schemas.MetricPoint], schemas.Experiment]:
+        """Points of the charts, each at an amount of feedback, and the experiment then. See `store_records`."""
+
+        def add(session: Session) -> tuple[list[schemas.MetricPoint], schemas.Experiment]:
+            written, row = store_records.add_metrics(session, experiment_id, points)
+            return written, wire.experiment(row)
+
+        return await self._database.write(add)
 
     @writes
     async def create_evaluation(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from datetime import timedelta
 from typing import Any
 
@@ -30,15 +30,29 @@ REMEMBERED = timedelta(hours=24)
 _MEASURE = insert(table(MetricRow))
 
 
-def add_metrics(session: Session, experiment_id: int, feedback: int, values: Mapping[str, float]) -> MetricPoint:
-    """A point of the charts. A value that isn't finite can't be drawn, nor written as JSON, and is left out."""
-    if session.scalar(select(ExperimentRow.id).where(ExperimentRow.id == experiment_id)) is None:
-        raise NotFound("experiment", experiment_id)
-    finite = {name: float(value) for name, value in values.items() if math.isfinite(value)}
-    point = MetricPoint(feedback=feedback, at=now(), values=finite)
-    entry = {"experiment_id": experiment_id, "feedback": feedback, "at": point.at, "data": finite}
-    session.connection().execute(_MEASURE, entry)
-    return point
+def add_metrics(
+    session: Session, experiment_id: int, points: Sequence[tuple[int, Mapping[str, float]]]
+) -> tuple[list[MetricPoint], ExperimentRow]:
+    """Points of the charts: an amount of feedback and values, to which the counters of now are added.
+
+    A value that isn't finite can't be drawn, nor written as JSON, and is left out. violation_ratio: violations over
+    decision steps, which are proposals that were judged; one feedback judges one proposal as long as one trainer
+    decides. The critic's count once they move.
+    """
+    row = load(session, experiment_id)
+    counted = {name: float(getattr(row, name)) for name in ("successes", "executions", "violations")}
+    written = []
+    for feedback, values in points:
+        ratio = {"violation_ratio": row.violations / max(1, feedback + row.auto_approved)}
+        finite = {
+            name: float(value) for name, value in ({**counted, **ratio, **values}).items() if math.isfinite(value)
+        }
+        written.append(MetricPoint(feedback=feedback, at=now(), values=finite))
+    session.connection().execute(
+        _MEASURE,
+        [{"experiment_id": experiment_id, "feedback": p.feedback, "at": p.at, "data": p.values} for p in written],
+    )
+    return written, row
 
 
 def metric_names(session: Session, experiment_id: int) -> list[str]:

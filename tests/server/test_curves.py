@@ -46,7 +46,7 @@ async def judged(
         )
     counters = (await store.experiment(experiment)).counters
     values = {"successes": float(counters.successes), "critic_loss": 1.0 / number, "own_metric": 2.0}
-    await store.add_metrics(experiment, number, values | {"good_share": counters.good / number})
+    await store.add_metrics(experiment, [(number, values | {"good_share": counters.good / number})])
 
 
 async def test_the_curves_tell_what_the_rows_say(store: Store) -> None:
@@ -72,7 +72,7 @@ async def test_the_curves_tell_what_the_rows_say(store: Store) -> None:
 async def test_few_points_leave_the_database_and_the_newest_is_among_them(sqlite_store: Store) -> None:
     experiment = await running(sqlite_store)
     for number in range(1, 206):
-        await sqlite_store.add_metrics(experiment, number, {"successes": float(number // 2)})
+        await sqlite_store.add_metrics(experiment, [(number, {"successes": float(number // 2)})])
     line = chart(await curves(sqlite_store, experiment, 20), "successes").curves[0]
     assert len(line.x) <= 21
     assert (line.x[-1], line.y[-1]) == (205, 102)
@@ -118,7 +118,7 @@ async def test_experiments_that_agree_are_one_curve_with_its_standard_error(stor
     for factor in (1, 3, 5):
         experiment = await running(store, name=f"times {factor}", task="stacking" if factor < 5 else "reaching")
         for number in (1, 2, 3):
-            await store.add_metrics(experiment, number, {"successes": float(factor * number)})
+            await store.add_metrics(experiment, [(number, {"successes": float(factor * number)})])
         made.append(experiment)
     empty = await running(store)
     each = await store.read(lambda s: comparing.compare(s, [*made, empty], "successes", []))
@@ -142,7 +142,7 @@ async def test_metrics_are_exported_whole_with_every_column(tmp_path: Path) -> N
         experiment = await live.experiment()
         for number in range(1, 604):
             values = {"successes": 1.0 * number} | ({"late": 0.5} if number > 600 else {})
-            await live.service.store.add_metrics(experiment, number, values)
+            await live.service.store.add_metrics(experiment, [(number, values)])
         address = f"/api/v1/experiments/{experiment}/exports/metrics"
         table = list(csv.DictReader((await live.http.get(address)).text.splitlines()))
         assert [(row["feedback"], row["successes"], row["late"]) for row in (table[0], table[-1])] == [

@@ -313,10 +313,11 @@ async def test_recovery_settles_what_was_left_behind(store: Store) -> None:
 
 async def test_metrics_leave_out_what_cannot_be_drawn(store: Store) -> None:
     experiment_id = await running(store)
-    await store.add_metrics(experiment_id, 1, {"loss": 0.5, "ratio": float("nan"), "peak": float("inf")})
-    await store.add_metrics(experiment_id, 2, {"loss": 0.25})
+    await store.add_metrics(experiment_id, [(1, {"loss": 0.5, "ratio": float("nan"), "peak": float("inf")})])
+    await store.add_metrics(experiment_id, [(2, {"loss": 0.25})])
     points = (await store.metrics(experiment_id)).items
-    assert [(p.feedback, p.values) for p in points] == [(1, {"loss": 0.5}), (2, {"loss": 0.25})]
+    assert [(p.feedback, p.values["loss"]) for p in points] == [(1, 0.5), (2, 0.25)]
+    assert not {"ratio", "peak"} & set(points[0].values)
 
 
 async def test_the_newest_checkpoint_is_found(store: Store) -> None:
