@@ -101,7 +101,7 @@ class _Job:
     run: Callable[[Session], Any]
     who: Principal
     """In whose name; `session.info["who"]` while it runs."""
-    future: Future[Any] = field(default_factory=Future)
+    future: Future[Any] | asyncio.Future[Any] = field(default_factory=Future)
     result: Any = None
     error: BaseException | None = None
 
@@ -145,8 +145,13 @@ def writes(
 class Database:
     """Both sides of one database. Writes are serial; a write's awaiter resumes only after its commit."""
 
-    def __init__(self, url: URL, elsewhere: Elsewhere | None = None) -> None:
-        """elsewhere: has the writer; here are the readers only."""
+    def __init__(self, url: URL, elsewhere: Elsewhere | None = None, *, alone: bool = False) -> None:
+        """Connect when it is needed.
+
+        elsewhere: has the writer; here are the readers only.
+        alone: nothing but writes goes on in this process. They are done in its event loop then: a thread would wait for
+        the interpreter at every statement.
+        """
         writer: dict[str, Any] = {"pool_size": 1, "max_overflow": 0}
         readers: dict[str, Any] = {"pool_size": READERS, "max_overflow": 0}
         if url.get_backend_name() == "postgresql":
@@ -156,10 +161,11 @@ class Database:
         self._readers = ThreadPoolExecutor(READERS, thread_name_prefix="store-reader")
         self._jobs: queue.SimpleQueue[_Job | None] = queue.SimpleQueue()
         self._closed = False
+        self._waiting: list[_Job] | None = [] if alone else None
         self._write_engine = engine(url, begin="BEGIN IMMEDIATE", **writer)
         # daemon: a program that forgets to close must still be able to end
         self._writer = threading.Thread(target=self._write_forever, name="store-writer", daemon=True)
-        if elsewhere is None:
+        if elsewhere is None and not alone:
             self._writer.start()
 
     async def write(self, run: Callable[[Session], T]) -> T:
@@ -168,10 +174,28 @@ class Database:
             raise StoreError("the store is closed", remedy="start the service again")
         if self.elsewhere is not None:
             raise RuntimeError("what writes is marked `writes`")
+        if self._waiting is not None:
+            return await self._write_here(run)
         job = _Job(run, acting.get())
         self._jobs.put(job)
-        result: T = await asyncio.wrap_future(job.future)
+        result: T = await asyncio.wrap_future(cast("Future[T]", job.future))
         return result
+
+    async def _write_here(self, run: Callable[[Session], T]) -> T:
+        assert self._waiting is not None
+        loop = asyncio.get_running_loop()
+        job = _Job(run, acting.get(), loop.create_future())
+        if not self._waiting:
+            loop.call_soon(self._commit_waiting)  # with everything that is asked for in this turn of the loop
+        self._waiting.append(job)
+        result: T = await cast("asyncio.Future[T]", job.future)
+        return result
+
+    def _commit_waiting(self) -> None:
+        assert self._waiting is not None
+        group = [job for job in self._waiting if not job.future.cancelled()]
+        self._waiting.clear()
+        self._commit(group)
 
     async def read(self, run: Callable[[Session], T]) -> T:
         """Run on a snapshot of what is committed."""
@@ -186,7 +210,7 @@ class Database:
         self._closed = True
         if self.elsewhere is not None:
             await self.elsewhere.close()
-        else:
+        elif self._writer.is_alive():
             self._jobs.put(None)
             await asyncio.to_thread(self._writer.join)
         await asyncio.to_thread(self._readers.shutdown)
@@ -209,7 +233,7 @@ class Database:
                     last = True
                 else:
                     group.append(job)
-            self._commit([job for job in group if job.future.set_running_or_notify_cancel()])
+            self._commit([job for job in group if cast("Future[Any]", job.future).set_running_or_notify_cancel()])
             if last:
                 return
 

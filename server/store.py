@@ -73,12 +73,18 @@ class Store(Recording):
 
     @classmethod
     async def open(
-        cls, url: str | None, data_dir: Path, *, backup: bool = True, elsewhere: Elsewhere | None = None
+        cls,
+        url: str | None,
+        data_dir: Path,
+        *,
+        backup: bool = True,
+        elsewhere: Elsewhere | None = None,
+        alone: bool = False,
     ) -> Store:
         """Create or migrate the database (a SQLite one is backed up before) and open it.
 
         url: of SQLAlchemy; None is SQLite in `data_dir`.
-        elsewhere: a process that does the writes.
+        elsewhere: a process that does the writes. alone: this is that process.
 
         Raises:
             NewerDatabase: a newer version wrote it. ReadOnly, Full: a migration is due and can't be written.
@@ -89,7 +95,7 @@ class Store(Recording):
             await elsewhere.open(url, data_dir, backup=backup)
             return cls(Database(target, elsewhere))
         await asyncio.to_thread(prepare, target, data_dir, backup=backup)
-        return cls(Database(target))
+        return cls(Database(target, alone=alone))
 
     async def close(self) -> None:
         """Commit what waits and let go of the database."""

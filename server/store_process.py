@@ -159,7 +159,7 @@ async def _answer(end: socket.socket) -> None:
     number, _, _, (url, data_dir, backup), _ = pickle.loads(first)
     with _alone(data_dir):
         try:
-            store = await Store.open(url, data_dir, backup=backup)
+            store = await Store.open(url, data_dir, backup=backup, alone=True)
         except StoreError as error:
             writer.write(_framed((number, None, error)))
             await writer.drain()
