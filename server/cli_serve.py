@@ -30,6 +30,10 @@ GIL_S = 0.0005
 """Seconds that a thread may compute before another gets its turn. Python's own 5 ms would be waited for at every
 message of a fan-out, because each send gives the interpreter up, while the store's writer is busy."""
 
+GC = (5_000, 20, 50)
+"""Thresholds of the garbage collector. It stands everything still while it goes through what hundreds of connections
+keep alive; little of a service lies in cycles, so that happens every few minutes instead of every few seconds."""
+
 
 async def run_server(settings: Settings, writer: StoreProcess, *, announce: Callable[[str], None]) -> None:
     """Serve until SIGINT or SIGTERM. The port is taken first: a second start fails before it touches the database.
@@ -39,6 +43,7 @@ async def run_server(settings: Settings, writer: StoreProcess, *, announce: Call
     """
     sys.setswitchinterval(GIL_S)
     gc.freeze()
+    gc.set_threshold(*GC)
     listener = _listen(settings.host, settings.port)
     with listener:
         async with opened(settings, elsewhere=writer) as service:

@@ -88,6 +88,14 @@ class LiveService:
         assert self._process is not None
         return self._process.pid
 
+    @property
+    def writer(self) -> int:
+        """Of the process that writes to the database: the one child that was forked."""
+        own = Path(f"/proc/{self.pid}/cmdline").read_bytes()
+        children = Path(f"/proc/{self.pid}/task/{self.pid}/children").read_text("utf-8").split()
+        (found,) = (int(child) for child in children if Path(f"/proc/{child}/cmdline").read_bytes() == own)
+        return found
+
     def start(self) -> None:
         """Start it and wait until it is ready."""
         with self._log.open("ab") as log:

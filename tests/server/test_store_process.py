@@ -17,14 +17,6 @@ from server.store_quality import QualityStore
 from tests.live import LiveService, wait_for
 
 
-def _writer(service: LiveService) -> int:
-    """Process id of the one child that wasn't started but forked."""
-    own = Path(f"/proc/{service.pid}/cmdline").read_bytes()
-    children = Path(f"/proc/{service.pid}/task/{service.pid}/children").read_text("utf-8").split()
-    (found,) = (int(child) for child in children if Path(f"/proc/{child}/cmdline").read_bytes() == own)
-    return found
-
-
 def _running(pid: int) -> bool:
     try:
         return Path(f"/proc/{pid}/stat").read_text("utf-8").rsplit(")", 1)[1].split()[0] != "Z"
@@ -56,7 +48,7 @@ def test_a_service_whose_writer_is_killed_ends_and_its_next_start_goes_on(servic
         experiment = service.experiment(adapter="kinematic", mode="propose_only")
         service.post(f"/experiments/{experiment}/start")
         judged = _click(service, experiment, "click-before")
-        os.kill(_writer(service), signal.SIGKILL)
+        os.kill(service.writer, signal.SIGKILL)
         assert service._process is not None
         assert service._process.wait(30) != 0
         assert "the process that writes to the database has ended; the service ends" in service.log()
@@ -74,7 +66,7 @@ def test_a_service_whose_writer_is_killed_ends_and_its_next_start_goes_on(servic
 def test_the_writer_ends_with_its_service_and_not_before(service: LiveService, how: signal.Signals) -> None:
     try:
         service.start()
-        writer = _writer(service)
+        writer = service.writer
         os.kill(writer, signal.SIGTERM)  # as everything of a service gets it from a supervisor or a terminal
         os.kill(writer, signal.SIGINT)
         service.experiment(adapter="kinematic")
