@@ -40,10 +40,10 @@ def decide(
         return _shut("a real robot moves by a person's verdict only, and this one is the critic's")
     if by_critic and not auto_approval:
         return _shut("the critic approved it by a rule that no longer holds")
-    if gold:
-        return _shut("held back")
     if mode is not Mode.EXECUTE_APPROVED:
         return _shut("the mode is propose only")
+    if gold:
+        return _shut("held back")
     if lifecycle is not Lifecycle.RUNNING:
         return _shut(f"the experiment is {lifecycle.value}")
     if not simulated and not operator_present:

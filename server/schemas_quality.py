@@ -107,7 +107,8 @@ class TrainerFigures(_Wire):
     with_verdicts: Annotated[Share, Field(description="labels that agree with the verdict, where others judged too")]
     with_others: Annotated[Share, Field(description="labels that agree with another trainer's of the same proposal")]
     gold: Annotated[
-        Share, Field(description="known answers hit; told to the trainer in steps of five, so that none is given away")
+        Share,
+        Field(description="known answers hit; told to the trainer after each fifty clicks, so that none is given away"),
     ]
     streak: Annotated[
         int, Field(description="newest labels in a row that neither a verdict of several nor a correction contradicts")

@@ -20,7 +20,7 @@ from server.store_values import NewProposal, NewView
 
 CONTENT = (
     *("observation", "skill", "parameters", "parameter_names", "digest", "views", "subgoal"),
-    *("predicted_feedback", "uncertainty", "skill_probabilities", "policy_version"),
+    *("predicted_feedback", "uncertainty", "skill_probabilities"),
 )
 """Columns of what is proposed, and of what it was drawn on: a marked proposal is shown again with the same."""
 
@@ -116,6 +116,8 @@ def open_proposal(session: Session, new: NewProposal) -> ProposalRow:
         known_answer=known.answer if known is not None else None,
         gold_of=again.id if again is not None else None,
         audit=False,
+        # today's also where it is shown again: an old one would give that away
+        policy_version=new.policy_version,
         **content,
     )
     add(session, row)
@@ -205,7 +207,6 @@ def _content(session: Session, new: NewProposal) -> dict[str, Any]:
         "predicted_feedback": float(new.predicted_feedback),
         "uncertainty": None if new.uncertainty is None else float(new.uncertainty),
         "skill_probabilities": {name: float(value) for name, value in new.skill_probabilities.items()},
-        "policy_version": new.policy_version,
         "subgoal": new.subgoal,
         "views": [_view(view) for view in new.views],
     }

@@ -90,7 +90,8 @@ def record(session: Session, experiment_id: int) -> AutoApprovalRecord:
 def consider(session: Session, proposal_id: int, *, simulated: bool) -> Considered:
     """Decide on the open proposal by the experiment's rule; an approval is its verdict, with the critic as its source.
 
-    A proposal that a trainer has had a say on, also one that was taken back, stays the trainers'.
+    A proposal that a trainer has had a say on, also one that was taken back, stays the trainers'. So does one whose
+    answer is known: where the critic would have approved it, it looks like an audit, and isn't counted as one.
     """
     proposal = load_proposal(session, proposal_id)
     experiment = load(session, proposal.experiment_id)
@@ -103,7 +104,6 @@ def consider(session: Session, proposal_id: int, *, simulated: bool) -> Consider
         or proposal.closed_at is not None
         or proposal.purpose != "training"
         or proposal.audit
-        or proposal.known_answer is not None
         or session.scalar(touched) is not None
     ):
         return asked
@@ -123,6 +123,8 @@ def consider(session: Session, proposal_id: int, *, simulated: bool) -> Consider
     decision = auto_approval.decide(rule, case)
     if decision is Decision.ASK:
         return asked
+    if proposal.known_answer is not None:
+        decision = Decision.AUDIT
     if decision is Decision.AUDIT:
         proposal.audit = True
     else:
@@ -170,6 +172,7 @@ def _audits(session: Session, experiment: ExperimentRow) -> tuple[int, int]:
             ProposalRow.experiment_id == experiment.id,
             ProposalRow.number > experiment.auto_approval_since,
             ProposalRow.audit,
+            ProposalRow.known_answer.is_(None),
             ProposalRow.verdict.is_not(None),
         )
         .order_by(ProposalRow.number.desc())

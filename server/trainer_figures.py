@@ -15,8 +15,8 @@ from server.schemas_quality import Estimate, Share, TrainerFigures
 
 PAUSE = 60.0
 """Seconds between two clicks after which a trainer was away."""
-TOLD_IN = 5
-"""A trainer is told of known answers in steps of so many: nobody finds out which proposal was one."""
+TOLD_IN = 50
+"""A trainer is told of known answers in steps of so many clicks: nobody finds out which of them was one."""
 UNKNOWN = Estimate(accuracy=None, interval=None, informative=0, weight=CORRECT / (CORRECT + OTHER), at=None)
 NOTHING = 2
 """In a column of -1, 0 and +1: there is none."""
@@ -82,9 +82,9 @@ def figures(clicks: Clicks, people: Mapping[int, Person], estimates: Mapping[int
     }
     made = Figures([], [])
     for n, (trainer, mine) in enumerate(zip(trainers.tolist(), _by(who, len(trainers)), strict=True)):
-        gold = mine[clicks.known[mine] != NOTHING]
-        hits = clicks.value[gold] == clicks.known[gold]
-        told = hits[: len(hits) // TOLD_IN * TOLD_IN]
+        known = clicks.known[mine] != NOTHING
+        hits = (clicks.value == clicks.known)[mine]
+        told = slice(len(mine) // TOLD_IN * TOLD_IN)
         numbers: dict[str, Any] = {name: int(column[n]) for name, column in counts.items()}
         person = people[trainer]
         full = TrainerFigures(
@@ -95,12 +95,12 @@ def figures(clicks: Clicks, people: Mapping[int, Person], estimates: Mapping[int
             per_minute=_pace(clicks.at[mine]),
             with_verdicts=_share(agrees[mine[(says & judged)[mine]]]),
             with_others=Share(count=int(alike[n]), of=int(others[n])),
-            gold=_share(hits),
+            gold=_share(hits[known]),
             streak=_streak(contradicted[mine[(says & clicks.counted)[mine]]]),
             estimate=estimates.get(trainer, UNKNOWN),
         )
         made.everybodys.append(full)
-        made.own.append(full.model_copy(update={"gold": _share(told), "estimate": None}))
+        made.own.append(full.model_copy(update={"gold": _share(hits[told][known[told]]), "estimate": None}))
     for each in (made.everybodys, made.own):
         each.sort(key=lambda one: (one.kind, one.trainer))
     return made

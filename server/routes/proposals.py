@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from datetime import datetime
+from email.utils import format_datetime
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Request, Response
@@ -61,11 +63,14 @@ async def get_proposal(service: Running, who: Who, proposal_id: Id) -> Proposal:
 async def get_image(service: Running, request: Request, proposal_id: Id, camera: str) -> Response:
     """The very still image that a proposal's overlay was computed on. It never changes: cache it for good."""
     proposal = await service.store.proposal(proposal_id)
-    return picture(service, request, {view.camera: view.image for view in proposal.views}, camera)
+    since = proposal.opened_at  # the file of one that is shown again may be old
+    return picture(service, request, {view.camera: view.image for view in proposal.views}, camera, since)
 
 
-def picture(service: Service, request: Request, images: Mapping[str, str], camera: str) -> Response:
-    """The still image of one camera, given its hash by camera.
+def picture(
+    service: Service, request: Request, images: Mapping[str, str], camera: str, since: datetime | None = None
+) -> Response:
+    """The still image of one camera, given its hash by camera. since: when it is said to be made; None: the file's.
 
     Raises:
         ServiceError: 404, there is no such camera, or its file is gone.
@@ -75,6 +80,8 @@ def picture(service: Service, request: Request, images: Mapping[str, str], camer
         cameras = ", ".join(images)
         raise ServiceError(404, f"the proposal has no camera {camera!r}", remedy=f"use one of: {cameras}")
     headers = {"ETag": f'"{image}"', "Cache-Control": "private, max-age=31536000, immutable"}
+    if since is not None:
+        headers["Last-Modified"] = format_datetime(since, usegmt=True)
     if headers["ETag"] in request.headers.get("if-none-match", ""):
         return Response(status_code=304, headers=headers)
     try:

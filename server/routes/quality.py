@@ -28,7 +28,7 @@ async def get_quality(service: Running, experiment_id: Id) -> LabelQuality:
 
 @router.get("/experiments/{experiment_id}/quality/mine", responses=errors(404, 422))
 async def get_own_figures(service: Running, who: Who, experiment_id: Id, trainer: Whose = None) -> TrainerFigures:
-    """One's own figures. Known answers are told in steps of five, so that no proposal is given away."""
+    """One's own figures. Known answers are told after each fifty clicks, so that none is given away."""
     name = who.speaking_for(trainer)
     found = await service.store.quality.figures_of(experiment_id, name)
     return found or nothing_yet(name)

@@ -77,7 +77,8 @@ async def test_a_marked_proposal_is_shown_again_as_it_was_and_never_moves_anythi
     await store.quality.mark_gold(first.id, GoldMark(answer=1))
     again = []
     for number in range(2, 30):
-        proposal = await opened(store, experiment_id, f"o{number}")
+        proposal = await opened(store, experiment_id, f"o{number}", policy_version=number)
+        assert proposal.policy_version == number, "an old one would stand out"
         known = proposal.parameters["x"] == 0.61
         await store.submit_feedback(proposal.id, click(1))
         decision, execution = await begun(store, proposal.id, proposal.observation_id)

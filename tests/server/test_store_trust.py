@@ -33,9 +33,9 @@ async def sure(store: Store, experiment_id: int, observation: str = "o1") -> Pro
     return await opened(store, experiment_id, observation, x=next(_x) / 10_000, **SURE)
 
 
-async def ruled(store: Store, **rule: Any) -> int:
+async def ruled(store: Store, gold_rate: float = 0.0, **rule: Any) -> int:
     """A running experiment with a rule and one feedback."""
-    experiment_id = await running(store, auto_approval=rule, seed=1)
+    experiment_id = await running(store, auto_approval=rule, seed=1, gold_rate=gold_rate)
     await judged(store, experiment_id, 0.0, 1)
     return experiment_id
 
@@ -223,6 +223,22 @@ async def test_an_audited_proposal_waits_for_a_trainer_and_is_counted_once_judge
     assert record.agreement == pytest.approx(2 / 3)
     assert record.interval == pytest.approx((0.2077, 0.9385), abs=1e-4)
     assert len(await journal(store, experiment_id, "auto_approval_audit")) == 3
+
+
+async def test_a_known_answer_looks_like_an_audit_where_the_critic_is_sure_and_counts_as_none(store: Store) -> None:
+    experiment_id = await ruled(store, **NEVER_AUDITED, gold_rate=0.5)
+    looks = []
+    for number in range(12):
+        fields = {"x": next(_x) / 10_000, "rule_answer": -1, **SURE}
+        proposal = await opened(store, experiment_id, f"g{number}", **fields)
+        looks.append((await store.consider(proposal.id, simulated=True)).proposal.audit)
+        if looks[-1]:  # the critic has approved the others
+            await store.submit_feedback(proposal.id, click(-1))
+    gold = {each.number for each in (await store.quality.gold(experiment_id, None, 50)).items}
+    assert looks == [number + 2 in gold for number in range(12)]
+    assert len(gold) >= 3
+    record = await store.auto_approvals(experiment_id)
+    assert (record.audited, record.agreed, record.suspended) == (0, 0, None)
 
 
 async def test_it_suspends_itself_where_trainers_disagree_until_it_is_set_anew(store: Store) -> None:

@@ -1432,7 +1432,7 @@ export interface paths {
         };
         /**
          * Get Own Figures
-         * @description One's own figures. Known answers are told in steps of five, so that no proposal is given away.
+         * @description One's own figures. Known answers are told after each fifty clicks, so that none is given away.
          */
         get: operations["get_own_figures"];
         put?: never;
@@ -5895,7 +5895,7 @@ export interface components {
             with_verdicts: components["schemas"]["Share"];
             /** @description labels that agree with another trainer's of the same proposal */
             with_others: components["schemas"]["Share"];
-            /** @description known answers hit; told to the trainer in steps of five, so that none is given away */
+            /** @description known answers hit; told to the trainer after each fifty clicks, so that none is given away */
             gold: components["schemas"]["Share"];
             /**
              * Streak
