@@ -38,6 +38,8 @@ COLUMNS = (
     *("predicted_feedback", "policy_version", "verdict", "verdict_source", "close_reason", "gold", "known_answer"),
 )
 """act: `click`, or `relabel`, whose `trainer` is who corrected it and whose `at` is when."""
+FORMULAS = frozenset("=+-@\t\r\n")
+"""How a formula may begin in one spreadsheet or another."""
 CHUNK = 500
 """Rows read at once: an export of any size needs little memory, and holds up nobody."""
 
@@ -59,7 +61,7 @@ async def metrics(store: Store, experiment_id: int, form: Form) -> AsyncIterator
     names = await store.read(lambda session: store_records.metric_names(session, experiment_id))
     columns = ("feedback", "at", *names)
     if form == "csv":
-        yield _lines([columns])
+        yield _lines([[_cell(column) for column in columns]])
     after = 0
     while True:
         rows, after = await store.read(_points(experiment_id, after))
@@ -177,9 +179,9 @@ def _lines(rows: Iterable[Sequence[Any]]) -> str:
 
 
 def _cell(value: Any) -> Any:
-    """A name that a spreadsheet would take for a formula is written as text."""
+    """A name that a spreadsheet would take for a formula is written as text (OWASP, "CSV Injection")."""
     if isinstance(value, dict):
         return json.dumps(value)
     if isinstance(value, bool):
         return str(value).lower()
-    return f"'{value}" if isinstance(value, str) and value[:1] in ("=", "+", "-", "@") else value
+    return f"'{value}" if isinstance(value, str) and value[:1] in FORMULAS else value

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Awaitable, Callable
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
@@ -98,10 +99,13 @@ class Scene:
         )
         return execution.id
 
+    async def entries(self) -> list[dict[str, Any]]:
+        """The audit, oldest first."""
+        return list(reversed((await self.owner.get("/api/v1/audit", params={"limit": 200})).json()["items"]))
+
     async def lines(self) -> list[tuple[str, str]]:
         """Who did what, oldest first."""
-        entries = (await self.owner.get("/api/v1/audit", params={"limit": 200})).json()["items"]
-        return [(each["name"], each["action"]) for each in reversed(entries)]
+        return [(each["name"], each["action"]) for each in await self.entries()]
 
 
 def verb(name: str, *, at: str = "spare") -> Send:
@@ -232,11 +236,17 @@ async def test_each_leaves_its_line_under_the_name_of_who_did_it_with_the_arm_s_
     async with house(tmp_path) as home:
         scene = Scene(home)
         await scene.set_up()
+        sessions = set()
         for name, (action, send) in DECIDES.items():
-            before = len(await scene.lines())
+            before, began = len(await scene.entries()), datetime.now(UTC)
             answer = await send(scene)
             who = "Walker" if name == "sign_in" else "Guest" if name == "sign_out" else "owner"
-            assert (who, action) in (await scene.lines())[before:], (name, answer.status_code, answer.text)
+            made = [each for each in (await scene.entries())[before:] if each["action"] == action]
+            assert [each["name"] for each in made] == [who], (name, answer.status_code, answer.text)
+            assert began <= datetime.fromisoformat(made[0]["at"]) <= datetime.now(UTC), name
+            sessions.add((who, made[0]["session_id"]))
+        assert None not in {session for _, session in sessions}
+        assert len(sessions) == 3, "everything that one has done is from one session"
 
 
 async def test_each_message_of_the_stream_that_decides_leaves_its_line(tmp_path: Path, plugins: None) -> None:

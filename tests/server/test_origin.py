@@ -13,7 +13,7 @@ from websockets.typing import Origin
 from server.doors import COOKIE
 from tests.server.serving import Serving, event, serving
 from tests.server.test_errors import check_problem
-from tests.server.test_people import experiment, house
+from tests.server.test_people import House, experiment, house
 
 PROXIED = {"X-Forwarded-For": "127.0.0.1", "X-Forwarded-Proto": "https"}
 """What a proxy of this machine that speaks TLS says."""
@@ -95,3 +95,22 @@ async def test_with_a_login_a_proxy_s_visitors_are_asked_who_they_are(tmp_path: 
     async with house(tmp_path) as home:
         answer: httpx.Response = await home.owner.get("/api/v1/me", headers={"X-Forwarded-For": "203.0.113.9"})
         assert answer.json()["name"] == "owner"
+
+
+async def test_strangers_behind_a_proxy_are_counted_by_the_address_that_it_names(tmp_path: Path) -> None:
+    def told(*addresses: str) -> dict[str, str]:
+        return {"X-Forwarded-For": ", ".join(addresses)}
+
+    async def asked(home: House, headers: dict[str, str]) -> int:
+        answer: httpx.Response = await home.live.http.get("/api/v1/experiments", headers=headers)
+        return answer.status_code
+
+    async with house(tmp_path / "trusted", rate_limit="5/hour") as home:
+        # whatever a stranger writes before it, the address that counts is the one that the proxy has added
+        many = [await asked(home, told(f"198.51.100.{n}", "203.0.113.9")) for n in range(6)]
+        assert many == [401] * 5 + [429]
+        assert await asked(home, told("203.0.113.10")) == 401, "another one behind the same proxy"
+        assert (await home.owner.get("/api/v1/me", headers=told("203.0.113.9"))).status_code == 200
+    async with house(tmp_path / "unknown", rate_limit="5/hour", trusted_proxies="192.0.2.1") as home:
+        many = [await asked(home, told(f"198.51.100.{n}")) for n in range(6)]
+        assert many == [401] * 5 + [429], "nobody whom we don't know says who asks"

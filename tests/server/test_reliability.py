@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from server.agreement import Agreement, agreement
+from server.agreement import Agreement, agreement, ordinal_alpha
 from server.reliability import Estimate, Said, estimate
 
 SKILL = {0: 0.9, 1: 0.8, 2: 0.65, 3: 0.4}
@@ -134,6 +134,41 @@ def test_of_a_trainer_who_is_alone_nothing_is_known_until_answers_are() -> None:
     assert estimated([], {}).trainers == {}
 
 
+def test_where_nobody_judged_what_another_did_nothing_is_known_of_anybody() -> None:
+    said = [(10 * trainer + call, trainer, 1 - 2 * (call % 2)) for trainer in range(4) for call in range(10)]
+    found = estimated(said, {})
+    for each in found.trainers.values():
+        assert (each.labels, each.informative, each.accuracy, each.interval) == (10, 0, None, None)
+        assert each.weight == pytest.approx(2 / 3)
+    assert np.isfinite(found.truth).all()
+
+
+def test_who_all_say_the_same_are_believed() -> None:
+    for value in (1, -1):
+        found = estimated([(call, trainer, value) for call in range(30) for trainer in range(3)], {})
+        assert (found.truth if value > 0 else 1 - found.truth).min() > 0.99
+        assert all(each.informative == 30 and each.weight > 0.95 for each in found.trainers.values())
+    neutral = estimated([(call, trainer, 0) for call in range(30) for trainer in range(3)], {})
+    assert np.isfinite(neutral.truth).all()
+    assert {each.informative for each in neutral.trainers.values()} == {0}
+
+
+def test_an_adversary_and_spammers_are_found_out_and_lead_nobody_astray() -> None:
+    random, said, truth = np.random.default_rng(11), [], {}
+    for call in range(300):
+        truth[call] = 1 if random.random() < 0.3 else -1
+        said += [(call, trainer, truth[call] if random.random() < 0.85 else -truth[call]) for trainer in (1, 2, 3)]
+        said += [(call, 4, -truth[call]), (call, 5, int(random.choice((-1, 1)))), (call, 6, 1)]
+    found = estimated(said, {})
+    right = [(found.truth[n] > 0.5) == (truth[int(call)] > 0) for n, call in enumerate(found.proposals)]
+    assert sum(right) >= 0.97 * len(right)
+    accuracy = {who: each.accuracy for who, each in found.trainers.items()}
+    assert [accuracy[who] for who in (1, 2, 3)] == pytest.approx([0.85] * 3, abs=0.06)
+    assert accuracy[4] == pytest.approx(0, abs=0.06), "always wrong"
+    assert accuracy[5] == pytest.approx(0.5, abs=0.08), "throws a coin"
+    assert accuracy[6] == pytest.approx(sum(each > 0 for each in truth.values()) / 300, abs=0.06), "always says good"
+
+
 def test_neutral_says_neither_and_harms_nobodys_accuracy() -> None:
     said = [(call, trainer, 1) for call in range(10) for trainer in (1, 2)] + [(c, 3, 0) for c in range(10)]
     found = estimated(said, {}).trainers
@@ -150,6 +185,16 @@ def test_alpha_is_the_one_worked_out_by_hand() -> None:
     opposite = agreed({unit: {1: value, 2: -value} for unit, value in enumerate((-1, 1, -1, 1))}).alpha
     assert opposite is not None
     assert opposite < -0.5
+
+
+def test_alpha_is_that_of_krippendorffs_own_example_with_missing_values() -> None:
+    # Krippendorff (2011), "Computing Krippendorff's Alpha-Reliability", part C: four observers, twelve units, values
+    # 1 to 5. The last unit was observed by one only
+    observers = ("123321412...", "1233224125.3", ".3332342251.", "12332441251.")
+    units = [[observer[n] for observer in observers if observer[n] != "."] for n in range(12)]
+    counts = np.array([[unit.count(value) for value in "12345"] for unit in units if len(unit) > 1])
+    assert counts.sum() == 40
+    assert ordinal_alpha(counts) == pytest.approx(0.815, abs=5e-4)
 
 
 def test_bad_against_good_is_further_apart_than_against_neutral() -> None:
