@@ -50,7 +50,7 @@ class StoreProcess:
         self._waiting: dict[int, asyncio.Future[Any]] = {}
         self._writer: asyncio.StreamWriter | None = None
         self._replies: asyncio.Task[None] | None = None
-        self._closing = False
+        self._opened = self._closing = False
         self.died = False
         """Whether it has ended by itself."""
 
@@ -67,17 +67,12 @@ class StoreProcess:
             self._process.kill()
             self._process.join()
 
-    @property
-    def pid(self) -> int:
-        """Of the process."""
-        assert self._process.pid is not None
-        return self._process.pid
-
     async def open(self, url: str | None, data_dir: Path, *, backup: bool) -> None:
         """Have it open the database. It raises what `Store.open` does."""
         reader, self._writer = await asyncio.open_unix_connection(sock=self._socket)
         self._replies = asyncio.create_task(self._read(reader), name="replies of the store")
         await self.call("open", (url, data_dir, backup), {})
+        self._opened = True
 
     async def call(self, method: str, args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
         """What a method of the store returns there, or raises.
@@ -105,7 +100,7 @@ class StoreProcess:
 
     async def _read(self, reader: asyncio.StreamReader) -> None:
         """Hand replies to their callers until the process has closed its end."""
-        with contextlib.suppress(asyncio.IncompleteReadError, OSError):
+        try:
             while True:
                 number, result, error = pickle.loads(await _message(reader))
                 future = self._waiting.pop(number)
@@ -115,7 +110,17 @@ class StoreProcess:
                     future.set_result(result)
                 else:
                     future.set_exception(error)
-        self.died = not self._closing
+        except (asyncio.IncompleteReadError, OSError):
+            pass
+        except asyncio.CancelledError:  # the event loop ends
+            self._closing = True
+            raise
+        finally:
+            self._end()
+
+    def _end(self) -> None:
+        """Nothing will be answered any more."""
+        self.died = self._opened and not self._closing
         for future in self._waiting.values():
             if not future.done():
                 future.set_exception(_ended())
@@ -171,17 +176,16 @@ async def _answer(end: socket.socket) -> None:
         async def do(number: int, who: Principal, method: str, args: Sequence[Any], kwargs: Mapping[str, Any]) -> None:
             acting.set(who)
             part, name = method.split(".")
-            result: Any = None
-            failure: Exception | None = None
             try:
-                result = await getattr(parts[part], name)(*args, **kwargs)
+                answer = _framed((number, await getattr(parts[part], name)(*args, **kwargs), None))
             except StoreError as error:
-                failure = error
+                answer = _framed((number, None, error))
             except Exception as error:  # noqa: BLE001 - handed to whoever asked
                 # only its text can be sent: whatever it is, it is a mistake of ours
-                failure = RuntimeError(f"{method}: {error!r}")
-                failure.add_note(traceback.format_exc())
-            writer.write(_framed((number, result, failure)))
+                mistake = RuntimeError(f"{method}: {error!r}")
+                mistake.add_note(traceback.format_exc())
+                answer = _framed((number, None, mistake))
+            writer.write(answer)
 
         with contextlib.suppress(asyncio.IncompleteReadError, OSError):
             while True:
