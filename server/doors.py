@@ -27,7 +27,7 @@ UNKNOWN = "local"
 UNCOUNTED = frozenset({"halt_experiment"})
 """Routes that somebody who is let in may ask for at any rate: an emergency stop never waits."""
 LOOK_EVERY = 2.0
-"""Seconds between two looks at whether those who have a stream open may still come in."""
+"""Seconds between two looks at whether those who have a stream open, or download, may still come in."""
 
 log = logging.getLogger(__name__)
 
@@ -89,12 +89,12 @@ class Doors:
     async def watch(self, hub: Hub) -> None:
         """Let out those whose access runs out, or was ended by another process; until it is cancelled.
 
-        What ends here is cut off at once by whoever ends it. This also finds a stream that was just opening, and a word
-        of somebody at a robot that was on its way.
+        What ends here is cut off at once by whoever ends it. This also finds a stream or a download that was just
+        beginning, and a word of somebody at a robot that was on its way.
         """
         while self.login:
             await asyncio.sleep(LOOK_EVERY)
-            here = [*(visit.who for visit in hub.presence.streams()), *hub.attending]
+            here = [*hub.presence.served(), *hub.attending]
             ids = {who.session_id for who in here if who.session_id is not None}
             if not ids:
                 continue

@@ -1,6 +1,6 @@
 """Who is on-line: in which experiment, with which role, and since when. Used from the event loop only.
 
-Two tabs of one person are one person. Someone whose access ends is cut off here, at once.
+Two tabs of one person are one person. Someone whose access ends is cut off here, at once, also from what they download.
 """
 
 from __future__ import annotations
@@ -27,6 +27,15 @@ class Visit:
     """Set when their access has ended: the stream is closed at once."""
 
 
+@dataclass(eq=False)
+class Download:
+    """A table that is on its way to someone."""
+
+    who: Principal
+    cut: bool = False
+    """Whether their access has ended: they get no more of it."""
+
+
 @dataclass(frozen=True)
 class Present:
     """Someone who is on-line in one experiment, with all their open streams together."""
@@ -44,6 +53,7 @@ class Presence:
 
     def __init__(self) -> None:
         self._attending: dict[int, list[Visit]] = {}
+        self._downloads: set[Download] = set()
         self._listeners: list[Listener] = []
 
     def subscribe(self, listener: Listener) -> None:
@@ -67,6 +77,16 @@ class Presence:
             else:
                 del self._attending[experiment_id]
             self._tell(experiment_id, before)
+
+    @contextmanager
+    def download(self, who: Principal) -> Iterator[Download]:
+        """Be sent a table until the block is left."""
+        download = Download(who)
+        self._downloads.add(download)
+        try:
+            yield download
+        finally:
+            self._downloads.discard(download)
 
     def present(self, experiment_id: int) -> list[Present]:
         """Who is there, who came first first."""
@@ -95,11 +115,17 @@ class Presence:
         """Every open stream."""
         return [each for there in self._attending.values() for each in there]
 
+    def served(self) -> list[Principal]:
+        """Whose every open stream is, and every download."""
+        return [visit.who for visit in self.streams()] + [download.who for download in self._downloads]
+
     def cut_off(self, ended: Callable[[Principal], bool]) -> None:
-        """Close the streams of those whose access has ended."""
-        for each in self.streams():
-            if ended(each.who):
-                each.cut.set()
+        """Close the streams of those whose access has ended, and break their downloads off."""
+        for visit in self.streams():
+            if ended(visit.who):
+                visit.cut.set()
+        for download in self._downloads:
+            download.cut = download.cut or ended(download.who)
 
     def _tell(self, experiment_id: int, before: dict[str, Role]) -> None:
         if self.people(experiment_id) != before:

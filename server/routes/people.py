@@ -155,9 +155,9 @@ async def list_audit(
 
 
 @router.get("/exports/audit", response_class=StreamingResponse, responses={**errors(422), **TABLE})
-async def export_audit(service: Running, experiment: OfExperiment = None) -> StreamingResponse:
+async def export_audit(service: Running, who: Who, experiment: OfExperiment = None) -> StreamingResponse:
     """The same as CSV, oldest first."""
-    return table(export.audit(service.store, experiment), "csv", "audit")
+    return table(export.audit(service.store, experiment), "csv", "audit", to=who, among=service.hub.presence)
 
 
 def _must_reach(who: Principal, role: Role) -> None:

@@ -64,8 +64,10 @@ async def unmark_gold(service: Running, proposal_id: Id) -> Response:
 async def export_feedback(
     service: Running,
     experiment_id: Id,
+    who: Who,
     form: Annotated[export.Form, Query(alias="format", description="csv, or jsonl: one JSON object a line")] = "csv",
 ) -> StreamingResponse:
     """Every click with its history: corrections, late ones, those taken back, can't tell, gold, practice."""
     await service.store.experiment(experiment_id)
-    return table(export.feedback(service.store, experiment_id, form), form, f"experiment-{experiment_id}-feedback")
+    pieces = export.feedback(service.store, experiment_id, form)
+    return table(pieces, form, f"experiment-{experiment_id}-feedback", to=who, among=service.hub.presence)

@@ -41,11 +41,13 @@ async def get_curves(service: Running, experiment_id: Id, points: Points = 400) 
 async def export_metrics(
     service: Running,
     experiment_id: Id,
+    who: Who,
     form: Annotated[export.Form, Query(alias="format", description="csv, or jsonl: one JSON object a line")] = "csv",
 ) -> StreamingResponse:
     """Every metric point, one a label: what the learner reported and what was counted by then."""
     await service.store.experiment(experiment_id)
-    return table(export.metrics(service.store, experiment_id, form), form, f"experiment-{experiment_id}-metrics")
+    pieces = export.metrics(service.store, experiment_id, form)
+    return table(pieces, form, f"experiment-{experiment_id}-metrics", to=who, among=service.hub.presence)
 
 
 @router.get("/comparison", responses=errors(404, 422))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from datetime import timedelta
 from pathlib import Path
@@ -17,7 +18,7 @@ from server.doors import Doors
 from server.principal import SERVICE, Principal, Role
 from server.schemas_people import InvitationCreate, SignIn
 from server.settings import Settings
-from tests.server.serving import Serving, serving
+from tests.server.serving import Serving, event, serving
 from tests.server.test_errors import check_problem
 
 NOBODY, GUEST = "nobody", "guest"
@@ -81,6 +82,40 @@ async def test_the_stream_opens_to_those_who_may(tmp_path: Path, monkeypatch: py
             except InvalidStatus as refused:
                 opened[who] = refused.response.status_code
         assert opened == {NOBODY: 401, GUEST: 403} | {role.value: 101 for role in Role}
+
+
+async def test_each_message_of_a_stream_is_refused_to_those_who_only_watch(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async with serving(tmp_path) as live:
+        here = await live.experiment()
+        path = f"/api/v1/proposals/{(await live.proposal(here)).id}/feedback"
+        click = (await live.http.post(path, json=live.click(-1))).json()["id"]
+        proposal = await live.proposal(here, electorate=(Role.VIEWER.value,))
+        believe_the_header(monkeypatch, here)
+        before = (await live.http.get(f"/api/v1/experiments/{here}", headers={"x-who": Role.OWNER.value})).json()
+        messages = {
+            "feedback": {"click_id": "click-of-a-viewer", "proposal_id": proposal.id, "value": 1},
+            "relabel": {"click_id": "correction-of-one", "feedback_id": click, "value": 1},
+            "undo": {"request_id": "undo-of-a-viewer", "feedback_id": click},
+            "halt": {"request_id": "halt-of-a-viewer"},
+            "look": {},
+        }
+        assert set(messages) == {kind for kind, role in roles.MESSAGES.items() if role is not Role.VIEWER}
+        address = f"{here}/stream?trainer={Role.VIEWER.value}"
+        async with live.stream(address, additional_headers={"x-who": Role.VIEWER.value}) as viewer:
+            for kind, body in messages.items():
+                await viewer.send(json.dumps({"type": kind, **body}))
+                refused = await event(viewer, "refused")
+                assert (refused["problem"]["status"], refused["request_id"]) == (
+                    403,
+                    body.get("click_id", body.get("request_id")),
+                ), kind
+            # what they may say is answered as ever
+            await viewer.send(json.dumps({"type": "ping"}))
+            await event(viewer, "pong")
+        after = (await live.http.get(f"/api/v1/experiments/{here}", headers={"x-who": Role.OWNER.value})).json()
+        assert after == before, "and nothing has changed"
 
 
 async def test_whoever_was_invited_to_one_experiment_sees_nothing_of_another(
