@@ -19,7 +19,7 @@ from agent.algorithm import AgentError
 from robot_adapters.base import AdapterError, Unavailable
 from server.schemas import Feedback
 from server.schemas_problems import FieldProblem, Problem
-from server.store_errors import BadCursor, Conflict, Full, NewerDatabase, NotFound, ReadOnly, StoreError
+from server.store_errors import BadCursor, BadName, Conflict, Full, NewerDatabase, NotFound, ReadOnly, StoreError
 from server.worker import CommandFailed, WorkerDied, WorkerError, WorkerTimeout
 
 MEDIA_TYPE = "application/problem+json"
@@ -39,6 +39,7 @@ SLUGS = {
 STATUS_OF: tuple[tuple[type[Exception], int, str], ...] = (
     (NotFound, 404, "not-found"),
     (BadCursor, 422, "invalid"),
+    (BadName, 422, "invalid"),
     (Conflict, 409, "conflict"),
     (ReadOnly, 503, "read-only"),
     (Full, 503, "storage-full"),

@@ -10,6 +10,7 @@ import numpy as np
 from robot_adapters.base import SkillCall
 from robot_adapters.tasks.base import Task
 from server.desk import Desk
+from server.names import TEACHER
 from server.quota import Quota
 from server.schemas import Experiment, FeedbackCreate, Proposal
 from server.seeds import judging
@@ -22,7 +23,7 @@ class Judge:
     def __init__(self, experiment: Experiment, task: Task, desk: Desk, quota: Quota) -> None:
         assert experiment.teacher is not None
         self._teacher = teacher(experiment.teacher, task, experiment.teacher_settings)
-        self._name = f"teacher:{experiment.teacher}"
+        self._name = f"{TEACHER}{experiment.teacher}"
         self._seed = experiment.seed
         self._desk = desk
         self._quota = quota

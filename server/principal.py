@@ -9,6 +9,8 @@ from typing import TypeVar
 
 from pydantic import BaseModel
 
+from server.names import must_be_a_persons
+
 B = TypeVar("B", bound=BaseModel)
 
 
@@ -61,8 +63,15 @@ class Principal:
         return name if name is not None and (self.local or self.role.covers(Role.OPERATOR)) else self.name
 
     def named(self, body: B) -> B:
-        """A body whose `trainer` is who really sent it: with a login, whatever the body says."""
-        return body if self.local else body.model_copy(update={"trainer": self.name})
+        """A body whose `trainer` is who really sent it: with a login, whatever the body says.
+
+        Raises:
+            BadName: nobody signs in, and it is sent under a name that is the service's own.
+        """
+        if not self.local:
+            return body.model_copy(update={"trainer": self.name})
+        must_be_a_persons(getattr(body, "trainer", ""), "trainer")
+        return body
 
 
 LOCAL = Principal("local", Role.OWNER)

@@ -11,7 +11,7 @@ from contextlib import asynccontextmanager, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from server import catalogue
+from server import catalogue, privacy, store_names
 from server.critic import Critics
 from server.database import Elsewhere
 from server.doors import Doors
@@ -93,6 +93,7 @@ async def opened(
         try:
             # a first write: a database that can't be written fails here, and not at somebody's first click
             await store.remember("start", "start", "", 200, None)
+            privacy.learn(await store.read(store_names.misnamed))
             rooms = Rooms(queue_limit=settings.viewer_queue)
             measuring = Measuring(listener or rooms, store)
             hub = Hub(store, settings, measuring)

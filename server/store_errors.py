@@ -47,6 +47,10 @@ class BadCursor(StoreError):
         )
 
 
+class BadName(StoreError):
+    """A name that nobody may go by."""
+
+
 class ReadOnly(StoreError):
     """The database can be read but not written."""
 

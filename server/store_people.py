@@ -16,6 +16,7 @@ from server import store_pages
 from server.database import Database, writes
 from server.models import ExperimentRow
 from server.models_people import InvitationRow, PersonRow, SessionRow
+from server.names import must_be_a_persons
 from server.principal import Principal, Role
 from server.store_audit import record
 from server.store_errors import Conflict, NotFound
@@ -80,8 +81,9 @@ class PeopleStore:
         """Let somebody in by an invitation or by a token of their own; the person, and the token of the new session.
 
         Raises:
-            WrongToken: it opens nothing. Conflict: the name is missing or taken.
+            WrongToken: it opens nothing. Conflict: the name is missing or taken. BadName: it is the service's own.
         """
+        must_be_a_persons(body.name or "", "name")
         made = new_token()
 
         def enter(session: Session) -> wire.Person:

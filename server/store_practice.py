@@ -17,9 +17,6 @@ from server.store_errors import Conflict, NotFound
 from server.store_experiments import journal, load, now
 from server.store_labels import trainer
 
-TEACHER = "teacher:"
-"""What a synthetic trainer's name begins with: it needs no practice."""
-
 
 def place(session: Session, experiment_id: int, name: str) -> tuple[int, int, PracticeRow | None]:
     """The trainer's id, the number of their next practice proposal, and the one that is open, if any."""
@@ -106,11 +103,11 @@ def progress(session: Session, experiment: ExperimentRow, name: str) -> Practice
 
 
 def may_count(session: Session, experiment_id: int, required: dict[str, Any] | None, name: str) -> bool:
-    """Whether this trainer's clicks count: no practice is required, or they have passed, or they are a teacher.
+    """Whether this person's clicks count: no practice is required, or they have passed. A teacher's always do.
 
     required: the experiment's `practice_required`.
     """
-    if required is None or name.startswith(TEACHER):
+    if required is None:
         return True
     passed = (
         select(QualificationRow.at)

@@ -6,6 +6,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query
 
+from server.names import must_be_a_persons
 from server.principal import Principal
 from server.routes.dependencies import Id, Running, Who, errors
 from server.schemas import Experiment
@@ -23,6 +24,8 @@ async def attend(
     service: Running, who: Who, experiment_id: Id, body: Annotated[Attending, Body(openapi_examples=EXAMPLES)]
 ) -> Attending:
     """Say that you stand at the robot and watch it. Say it again before the time is over: else whatever moves stops."""
+    if who.local:
+        must_be_a_persons(body.operator, "operator")
     operator = who.called(body.operator)
     await service.hub.attend(experiment_id, operator, body.seconds)
     return body.model_copy(update={"operator": operator.name})

@@ -11,11 +11,12 @@ from starlette.websockets import WebSocketState
 from server.access import principal
 from server.errors import problem, problem_of, response
 from server.messages import ClientMessage, FrameHeader, Resumed, StreamEvent
+from server.names import must_be_a_persons
 from server.principal import Role
 from server.privacy import Telling, reader
 from server.routes.dependencies import LARGEST_ID
 from server.service import Service
-from server.store_errors import StoreError
+from server.store_errors import BadName, StoreError
 from server.stream import Connection
 
 router = APIRouter()
@@ -41,10 +42,16 @@ async def stream(socket: WebSocket, experiment_id: str, boot_id: str = "", since
         )
         await socket.send_denial_response(response(details))
         return
+    who = principal(socket)
+    if trainer and who.local:
+        try:
+            must_be_a_persons(trainer, "trainer")
+        except BadName as error:
+            await socket.send_denial_response(response(problem_of(error)))
+            return
     same_run = boot_id == socket.app.state.boot_id and since.isascii() and since.isdigit()
     # first listen, then look: whatever happens while the snapshot is read comes after it, some of it twice,
     # and every event carries the whole of what it is about, so twice is harmless
-    who = principal(socket)
     seat = who.called(trainer).name if trainer and who.role.covers(Role.TRAINER) else None
     hears = reader(who)
     with service.rooms.join(watched, hears) as outbox, service.hub.presence.visit(watched, who) as visit:

@@ -114,17 +114,29 @@ async def test_a_requirement_can_be_set_and_lifted_and_a_task_that_cant_be_drawn
 
 async def test_nobody_waits_for_a_trainer_who_has_to_practise(store: Store) -> None:
     experiment_id = await running(store, aggregation="unanimous", **REQUIRED)
-    for number in range(1, 4):
+    for number, name in [(number, name) for number in range(1, 4) for name in ("ann", "cyd")]:
         content = {"answer": 1, "reason": {}, "right": {}, "views": []}
-        row = await store.quality.open_practice(experiment_id, "ann", number, content)
+        row = await store.quality.open_practice(experiment_id, name, number, content)
         await store.quality.answer_practice(
-            row.id, PracticeAnswer(click_id=f"anns-{number:04}", value=1, trainer="ann")
+            row.id, PracticeAnswer(click_id=f"{name}s-{number:04}", value=1, trainer=name)
         )
-    proposal = await opened(store, experiment_id, electorate=("ann", "bob", "teacher:synthetic"))
+    proposal = await opened(store, experiment_id, electorate=("ann", "bob", "cyd", "teacher:dan"))
+    assert proposal.electorate == ["ann", "cyd"], "a person is not a teacher by their name"
     bobs = await store.submit_feedback(proposal.id, click(-1, trainer="bob"))
     assert (bobs.feedback.status, bobs.closed) == (FeedbackStatus.PRACTICE, None)
     assert (await store.submit_feedback(proposal.id, click(1, trainer="ann"))).closed is None
+    cyds = await store.submit_feedback(proposal.id, click(1, trainer="cyd"))
+    assert cyds.closed is not None
+    assert cyds.closed.verdict is Verdict.GOOD
+    assert [label.value for label in await store.labels(experiment_id)] == [1, 1]
+
+
+async def test_a_teacher_needs_no_practice_and_a_person_of_its_name_does(store: Store) -> None:
+    experiment_id = await running(store, **REQUIRED)
+    proposal = await opened(store, experiment_id, electorate=())
+    said = await store.submit_feedback(proposal.id, click(1, trainer="teacher:synthetic"))
+    assert (said.feedback.status, said.closed) == (FeedbackStatus.PRACTICE, None)
     taught = await store.submit_feedback(proposal.id, click(1, trainer="teacher:synthetic"), kind="teacher")
+    assert taught.feedback.status is FeedbackStatus.STORED
     assert taught.closed is not None
     assert taught.closed.verdict is Verdict.GOOD
-    assert [label.value for label in await store.labels(experiment_id)] == [1, 1]

@@ -8,8 +8,9 @@ from typing import Any
 
 from websockets.asyncio.client import ClientConnection
 
+from server.names import SOMEBODY
 from server.principal import Principal, Role
-from server.privacy import SOMEBODY, Telling, veiled
+from server.privacy import Telling, veiled
 from server.schemas_quality import AgreementInfo
 from server.schemas_together import Judge
 from tests.server.serving import event
