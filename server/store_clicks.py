@@ -34,14 +34,34 @@ def clicks(session: Session, experiment_id: int) -> Clicks:
     ids, proposal, trainer, value, counted, verdict, known, seconds = read
     label, relabelled = _corrected(session, experiment_id, ids, value)
     at = np.rint(seconds * 1e6).astype(np.int64)
-    return Clicks(proposal, trainer, value, label, counted != 0, relabelled, verdict, known, at)
+    word = words(proposal, trainer, counted)
+    return Clicks(proposal, trainer, value, label, counted != 0, word, relabelled, verdict, known, at)
 
 
 def said(session: Session, experiment_id: int) -> Said:
-    """The same, but only what was said: good, neutral or bad."""
-    query = select(FeedbackRow.proposal_id, FeedbackRow.trainer_id, FeedbackRow.value)
-    query = _of(query, experiment_id).where(FeedbackRow.value.is_not(None))
-    return Said(*_columns(session, query, "qib"))
+    """Everybody's one word on each proposal, where it was good, neutral or bad."""
+    query = select(
+        FeedbackRow.proposal_id,
+        FeedbackRow.trainer_id,
+        func.coalesce(FeedbackRow.value, NOTHING),
+        case((FeedbackRow.status.in_(COUNTING), 1), else_=0),
+    )
+    proposal, trainer, value, counted = _columns(session, _of(query, experiment_id), "qibb")
+    says = words(proposal, trainer, counted) & (value != NOTHING)
+    return Said(proposal[says], trainer[says], value[says])
+
+
+def words(proposal: NDArray[Any], trainer: NDArray[Any], counted: NDArray[Any]) -> NDArray[np.bool_]:
+    """(N,) Whether a click is its trainer's one word on its proposal: the one that counts, else the first late one.
+
+    Who clicks on after the verdict is known, from a second tab or to look better, says nothing by it.
+    """
+    order = np.lexsort((counted == 0, trainer, proposal))  # stable: of two late ones the earlier stays ahead
+    new = np.ones(len(order), np.bool_)
+    new[1:] = (np.diff(proposal[order]) != 0) | (np.diff(trainer[order]) != 0)
+    word = np.zeros(len(order), np.bool_)
+    word[order[new]] = True
+    return word
 
 
 def people(session: Session, experiment_id: int) -> dict[int, Person]:

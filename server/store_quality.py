@@ -256,7 +256,7 @@ def _tell(session: Session, experiment_id: int) -> _Told:
 
 
 def _agreement(clicks: Clicks) -> AgreementInfo:
-    says = clicks.value != NOTHING
+    says = clicks.word & (clicks.value != NOTHING)
     found = agreement(clicks.proposal[says], clicks.trainer[says], clicks.value[says])
     return AgreementInfo(
         alpha=found.alpha, proposals=found.proposals, labels=found.labels, trainers=found.trainers, why=found.why

@@ -39,7 +39,8 @@ class Clicks:
     """Those that weren't taken back, without practice, in the order they came: (N,) each.
 
     proposal, trainer: ids. value: as clicked; label: as it is now; verdict, known: the proposal's; each -1, 0, +1 or
-    `NOTHING`. counted: not late. at: microseconds since the epoch.
+    `NOTHING`. counted: not late. word: the trainer's one word on the proposal, see `store_clicks.words`. at:
+    microseconds since the epoch.
     """
 
     proposal: Ints
@@ -47,6 +48,7 @@ class Clicks:
     value: Small
     label: Small
     counted: Bools
+    word: Bools
     relabelled: Bools
     verdict: Small
     known: Small
@@ -67,8 +69,8 @@ def figures(clicks: Clicks, people: Mapping[int, Person], estimates: Mapping[int
         return Figures([], [])
     trainers, who = np.unique(clicks.trainer, return_inverse=True)
     _, item = np.unique(clicks.proposal, return_inverse=True)
-    says = clicks.value != NOTHING
-    judged = (np.bincount(item)[item] > 1) & (clicks.verdict != NOTHING)
+    says = clicks.word & (clicks.value != NOTHING)
+    judged = (np.bincount(item[clicks.word])[item] > 1) & (clicks.verdict != NOTHING)
     agrees = clicks.verdict == clicks.value
     contradicted = (clicks.label != clicks.value) | (judged & ~agrees)
     alike, others = _others(item[says], who[says], clicks.value[says], len(trainers))
@@ -82,7 +84,7 @@ def figures(clicks: Clicks, people: Mapping[int, Person], estimates: Mapping[int
     }
     made = Figures([], [])
     for n, (trainer, mine) in enumerate(zip(trainers.tolist(), _by(who, len(trainers)), strict=True)):
-        known = clicks.known[mine] != NOTHING
+        known = (clicks.word & (clicks.known != NOTHING))[mine]
         hits = (clicks.value == clicks.known)[mine]
         told = slice(len(mine) // TOLD_IN * TOLD_IN)
         numbers: dict[str, Any] = {name: int(column[n]) for name, column in counts.items()}

@@ -142,6 +142,26 @@ async def test_everybody_is_measured_in_the_background_and_told_apart(tmp_path: 
         check_problem(await live.http.get("/api/v1/experiments/4242/quality"), 404)
 
 
+async def test_nobody_looks_better_by_clicking_on_after_the_verdict(tmp_path: Path) -> None:
+    async with serving(tmp_path) as live:
+        experiment = await live.experiment()
+        for number in range(10):
+            said = 1 if number % 2 else -1
+            proposal = await live.proposal(experiment)
+            # ann decides, from two tabs; bob says the contrary, and then, again and again, what was decided
+            for name, value in (("ann", said), ("ann", said), ("bob", -said), *[("bob", said)] * 3):
+                await live.http.post(f"/api/v1/proposals/{proposal.id}/feedback", json=live.click(value, trainer=name))
+        await live.service.store.quality.measure(experiment)
+        told = (await live.http.get(f"/api/v1/experiments/{experiment}/quality")).json()
+        ann, bob = told["trainers"]
+        assert bob["with_verdicts"] == ann["with_others"] == {"count": 0, "of": 10}
+        assert (ann["late"], bob["late"]) == (10, 40)
+        assert told["agreement"]["alpha"] < 0
+        assert told["agreement"]["labels"] == 20
+        assert [each["estimate"]["informative"] for each in (ann, bob)] == [10, 10]
+        assert abs(ann["estimate"]["weight"] - bob["estimate"]["weight"]) < 1e-9
+
+
 async def test_what_cant_be_told_yet_is_said_and_an_estimate_comes_by_itself(tmp_path: Path) -> None:
     async with serving(tmp_path) as live:
         experiment = await live.experiment()

@@ -112,10 +112,14 @@ def one_by_one(session: Session, experiment_id: int) -> dict[str, Any]:
         if click.undone_at is None
         and click.status != "practice"
         and proposal.purpose == "training"
-        and (proposal.closed_at is not None or click.status != "stored")
+        and proposal.closed_at is not None
     ]
+    # everybody's one word on a proposal: what counts, else what they said first
+    words: dict[tuple[int, int], FeedbackRow] = {}
+    for click, _ in sorted(heard, key=lambda each: each[0].status not in COUNTING):
+        words.setdefault((click.proposal_id, click.trainer_id), click)
     of: dict[int, list[FeedbackRow]] = {}
-    for click, _ in heard:
+    for click in words.values():
         of.setdefault(click.proposal_id, []).append(click)
     told = []
     for trainer in {click.trainer_id: click.trainer for click, _ in heard}.values():
@@ -123,7 +127,7 @@ def one_by_one(session: Session, experiment_id: int) -> dict[str, Any]:
         told.append(_one(trainer, mine, of))
     return {
         "trainers": sorted(told, key=lambda each: (each["kind"], each["trainer"])),
-        "clicks": [click for click, _ in heard],
+        "words": [click for click, _ in heard if click in words.values()],
     }
 
 
@@ -132,12 +136,17 @@ def _one(
 ) -> dict[str, Any]:
     counted = [(c, p) for c, p in mine if c.status in COUNTING]
     labels = [c.label for c, _ in counted]
-    gold = [c.value == p.known_answer for c, p in mine if p.known_answer is not None]
-    fifty = [c.value == p.known_answer for c, p in mine[: len(mine) // 50 * 50] if p.known_answer is not None]
-    judged = [(c, p) for c, p in mine if c.value is not None and p.verdict is not None and len(of[p.id]) > 1]
+    gold = [c.value == p.known_answer for c, p in mine if p.known_answer is not None and c in of[p.id]]
+    fifty = [
+        c.value == p.known_answer
+        for c, p in mine[: len(mine) // 50 * 50]
+        if p.known_answer is not None and c in of[p.id]
+    ]
+    words = [(c, p) for c, p in mine if c in of[p.id] and c.value is not None]
+    judged = [(c, p) for c, p in words if p.verdict is not None and len(of[p.id]) > 1]
     pairs = [
         c.value == other.value
-        for c, p in mine
+        for c, p in words
         for other in of[p.id]
         if None not in (c.value, other.value) and other.trainer_id != trainer.id
     ]
@@ -167,9 +176,9 @@ def _one(
 
 def alpha_of(clicks: list[FeedbackRow]) -> tuple[float, int, int]:
     """By the package, from the whole matrix of trainers and proposals; and how many proposals and labels are in it."""
-    newest = {(c.trainer_id, c.proposal_id): c.value for c in clicks if c.value is not None}
-    trainers, proposals = sorted({t for t, _ in newest}), sorted({p for _, p in newest})
-    matrix = np.array([[newest.get((t, p), np.nan) for p in proposals] for t in trainers])
+    said = {(c.trainer_id, c.proposal_id): c.value for c in clicks if c.value is not None}
+    trainers, proposals = sorted({t for t, _ in said}), sorted({p for _, p in said})
+    matrix = np.array([[said.get((t, p), np.nan) for p in proposals] for t in trainers])
     several = (~np.isnan(matrix)).sum(axis=0) > 1
     found = krippendorff.alpha(matrix, value_domain=[-1, 0, 1], level_of_measurement="ordinal")
     return float(found), int(several.sum()), int((~np.isnan(matrix[:, several])).sum())
@@ -193,7 +202,7 @@ async def test_figures_are_those_of_counting_one_click_after_the_other(store: St
             assert own is not None
             assert own == found.model_copy(update={"estimate": None, "gold": own.gold})
             assert own.gold.model_dump() == own_gold
-    alpha, proposals, labels = alpha_of(plain["clicks"])
+    alpha, proposals, labels = alpha_of(plain["words"])
     assert told.agreement.alpha == pytest.approx(alpha, abs=1e-12)
     assert (told.agreement.proposals, told.agreement.labels, told.agreement.trainers) == (proposals, labels, 6)
 
@@ -205,7 +214,7 @@ async def test_trainers_are_measured_by_what_they_clicked_and_by_every_known_ans
     assert await store.quality.measure(experiment_id)
 
     def check(session: Session) -> None:
-        clicks = [c for c in one_by_one(session, experiment_id)["clicks"] if c.value is not None]
+        clicks = [c for c in one_by_one(session, experiment_id)["words"] if c.value is not None]
         closed = select(ProposalRow).where(
             ProposalRow.experiment_id == experiment_id, ProposalRow.closed_at.is_not(None)
         )
