@@ -14,6 +14,7 @@ from server.models import ExperimentRow, FeedbackRow, ProposalRow
 from server.models_quality import GoldMarkRow
 from server.schemas_labels import answer_of
 from server.schemas_quality import Gold, GoldAnswer, GoldMark
+from server.schemas_together import Together
 from server.seeds import gold as lot
 from server.store_errors import Conflict, NotFound
 from server.store_experiments import journal, now
@@ -35,7 +36,8 @@ class Known:
 def drawn(session: Session, experiment: ExperimentRow, new: NewProposal, number: int) -> Known | None:
     """Whether the proposal of this number is gold, by a lot that depends on the experiment's seed and the number only.
 
-    None: it is one like all others. Without a rate no lot is drawn at all.
+    None: it is one like all others. Without a rate no lot is drawn at all. In parallel, where the open ones of a robot
+    show one scene, one of another scene would stand out: there the rule knows the answers, wherever it can.
     """
     if not experiment.gold_rate or new.purpose != "training":
         return None
@@ -43,7 +45,8 @@ def drawn(session: Session, experiment: ExperimentRow, new: NewProposal, number:
     chance, kind = random.random(), random.random()
     if chance >= experiment.gold_rate:
         return None
-    mark = _least_shown(session, experiment.id) if kind < AGAIN or new.rule_answer is None else None
+    again = kind < AGAIN and not Together.model_validate(experiment.together).parallel
+    mark = _least_shown(session, experiment.id) if again or new.rule_answer is None else None
     if mark is not None:
         return Known(mark.answer, mark.proposal)
     return None if new.rule_answer is None else Known(new.rule_answer)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from typing import Any
+from uuid import uuid4
 
 from sqlalchemy import and_, bindparam, func, select
 from sqlalchemy.orm import Session
@@ -19,10 +20,10 @@ from server.store_rows import add, save
 from server.store_values import NewProposal, NewView
 
 CONTENT = (
-    *("observation", "skill", "parameters", "parameter_names", "digest", "views", "subgoal"),
+    *("skill", "parameters", "parameter_names", "digest", "views", "subgoal"),
     *("predicted_feedback", "uncertainty", "skill_probabilities"),
 )
-"""Columns of what is proposed, and of what it was drawn on: a marked proposal is shown again with the same."""
+"""Columns of what is proposed, and of its pictures: a marked proposal is shown again with the same."""
 
 _NEWEST = select(func.max(ProposalRow.number)).where(ProposalRow.experiment_id == ExperimentRow.id)
 _MOVING = select(ExecutionRow.id).where(
@@ -98,7 +99,7 @@ def open_proposal(session: Session, new: NewProposal) -> ProposalRow:
     number = (newest or 0) + 1
     known = store_gold.drawn(session, experiment, new, number)
     again = known.again if known is not None else None
-    content = _content(session, new) if again is None else {name: getattr(again, name) for name in CONTENT}
+    content = _content(session, new) if again is None else _once_more(session, new, again)
     observation = content.pop("observation")
     row = ProposalRow(
         experiment_id=new.experiment_id,
@@ -210,6 +211,15 @@ def _content(session: Session, new: NewProposal) -> dict[str, Any]:
         "subgoal": new.subgoal,
         "views": [_view(view) for view in new.views],
     }
+
+
+def _once_more(session: Session, new: NewProposal, old: ProposalRow) -> dict[str, Any]:
+    """What was proposed earlier, under an observation of its own: the id of that one would tell it from all others."""
+    seen = ObservationRow(
+        experiment_id=new.experiment_id, uid=uuid4().hex, state=old.observation.state, taken_at=float(new.taken_at)
+    )
+    add(session, seen)
+    return {"observation": seen} | {name: getattr(old, name) for name in CONTENT}
 
 
 def _view(view: NewView) -> dict[str, object]:

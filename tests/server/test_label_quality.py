@@ -85,7 +85,8 @@ async def test_a_marked_proposal_is_shown_again_as_it_was_and_never_moves_anythi
         assert (execution is None) == known
         if known:
             again.append(proposal)
-            assert (proposal.observation_id, proposal.state, proposal.digest) == ("o1", first.state, first.digest)
+            assert (proposal.state, proposal.digest) == (first.state, first.digest)
+            assert proposal.observation_id not in ("o1", f"o{number}"), "an id that was there before would stand out"
             assert [v.image for v in proposal.views] == [v.image for v in first.views]
             assert decision.reason == "held back"
         else:
@@ -97,6 +98,7 @@ async def test_a_marked_proposal_is_shown_again_as_it_was_and_never_moves_anythi
         (p.id, "operator", True) for p in reversed(again)
     ]
     assert len(again) >= 4
+    assert len({proposal.observation_id for proposal in again}) == len(again)
     await store.quality.unmark_gold(first.id)
     for number in range(30, 40):
         proposal = await opened(store, experiment_id, f"o{number}")
@@ -185,6 +187,23 @@ async def test_what_cant_be_told_yet_is_said_and_an_estimate_comes_by_itself(tmp
             if len(told) == 2 and all(t["estimate"]["at"] for t in told):
                 break
         assert all(t["estimate"]["informative"] == 1 for t in told)
+
+
+async def test_beside_others_of_the_same_robot_a_known_answer_is_of_the_same_scene(store: Store) -> None:
+    together = {"parallel": True}
+    experiment_id = await running(store, gold_rate=0.5, seed=1, aggregation="majority", together=together)
+    first = await opened(store, experiment_id, "o1", x=0.61)
+    await store.submit_feedback(first.id, click(-1))
+    await store.quality.mark_gold(first.id, GoldMark(answer=1))
+    beside = [
+        await opened(store, experiment_id, "o2", slot=slot, x=0.4 + slot / 1000, rule_answer=-1) for slot in range(12)
+    ]
+    assert {proposal.observation_id for proposal in beside} == {"o2"}
+    assert len({tuple(proposal.state) for proposal in beside}) == 1
+    for proposal in beside:
+        await store.close_proposal(proposal.id, CloseReason.WITHDRAWN)
+    known = (await store.quality.gold(experiment_id, None, 50)).items
+    assert {each.source for each in known} == {"rule"}
 
 
 async def test_the_table_holds_every_click_with_its_history(tmp_path: Path) -> None:
