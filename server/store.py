@@ -17,6 +17,7 @@ from server import (
     schemas,
     schemas_incidents,
     schemas_labels,
+    store_electorates,
     store_executions,
     store_experiments,
     store_incidents,
@@ -127,7 +128,7 @@ class Store(Recording):
         """The same, and the open proposals that a new rule has closed by the votes they had."""
 
         def update(session: Session) -> tuple[schemas.Experiment, list[Concluded]]:
-            row, concluded = store_votes.update(session, experiment_id, change)
+            row, concluded = store_electorates.update(session, experiment_id, change)
             return wire.experiment(row), concluded
 
         return await self._database.write(update)
@@ -222,13 +223,13 @@ class Store(Recording):
 
     @writes
     async def leave_electorates(self, experiment_id: int, names: Collection[str]) -> list[Concluded]:
-        """Wait for these trainers no longer, on any open proposal. See `store_votes.leave`."""
-        return await self._database.write(lambda s: store_votes.leave(s, experiment_id, names))
+        """Wait for these trainers no longer, on any open proposal. See `store_electorates.leave`."""
+        return await self._database.write(lambda s: store_electorates.leave(s, experiment_id, names))
 
     @writes
     async def enter_electorates(self, experiment_id: int, names: Sequence[str]) -> list[Concluded]:
         """Ask these trainers for the open proposals that nobody is left to judge."""
-        return await self._database.write(lambda s: store_votes.enter(s, experiment_id, names))
+        return await self._database.write(lambda s: store_electorates.enter(s, experiment_id, names))
 
     @writes
     async def relabel(self, feedback_id: int, body: schemas_labels.RelabelCreate, *, anybodys: bool) -> Relabelled:

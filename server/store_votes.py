@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from sqlalchemy import Row, and_, bindparam, insert, select
 from sqlalchemy.orm import Session
 
-from server import aggregation, schemas, schemas_trust, store_experiments, store_practice, store_quality
+from server import aggregation, schemas, schemas_trust, store_practice, store_quality
 from server.models import COUNTING, ExperimentRow, FeedbackRow, ObservationRow, ProposalRow, TrainerRow
 from server.models_base import table
 from server.schemas_labels import answer_of
@@ -16,11 +16,11 @@ from server.schemas_together import Together
 from server.store_audit import record
 from server.store_closing import close, count
 from server.store_errors import Conflict, NotFound
-from server.store_experiments import journal, load, now
+from server.store_experiments import now
 from server.store_labels import labels_of, labels_of_click, trainer
 from server.store_proposals import load_proposal
 from server.store_rows import save
-from server.store_values import Concluded, Submission
+from server.store_values import Submission
 from server.store_wire import feedback as feedback_wire
 from server.store_wire import proposal as proposal_wire
 
@@ -116,19 +116,19 @@ def submit(
         experiment.updated_at = feedback.received_at
         save(session, experiment)
         labels = labels_of_click(session, feedback.id)
-        return Submission(_why(feedback, late_because), duplicate=False, heard=_told(session, proposal), labels=labels)
+        return Submission(_why(feedback, late_because), duplicate=False, heard=told(session, proposal), labels=labels)
     if status == "late":
         session.connection().execute(_COUNT_LATE, {"experiment": experiment_id, "at": feedback.received_at})
         return Submission(_why(feedback, late_because), duplicate=False)
     cast[click.trainer] = click.label
-    _conclude(session, experiment, proposal, cast)
+    conclude(session, experiment, proposal, cast)
     experiment.updated_at = now()
     save(session, proposal)
     save(session, experiment)
-    told = proposal_wire(proposal, cast)
+    answer = proposal_wire(proposal, cast)
     if proposal.closed_at is None:
-        return Submission(feedback, duplicate=False, heard=told)
-    return Submission(feedback, duplicate=False, heard=told, closed=told, labels=labels_of(session, proposal_id))
+        return Submission(feedback, duplicate=False, heard=answer)
+    return Submission(feedback, duplicate=False, heard=answer, closed=answer, labels=labels_of(session, proposal_id))
 
 
 def approve_evaluation(session: Session, proposal_id: int) -> ProposalRow:
@@ -169,63 +169,6 @@ def stands(session: Session, experiment: ExperimentRow, proposal: ProposalRow) -
     return verdict_of(session, experiment, proposal, votes(session, proposal.id)) is schemas.Verdict.GOOD
 
 
-def leave(session: Session, experiment_id: int, names: Collection[str]) -> list[Concluded]:
-    """These trainers are gone: no open proposal waits for them any more. What they have said stays and counts.
-
-    The proposals that this concerns; some may be closed by it.
-    """
-    concluded = []
-    experiment = load(session, experiment_id)
-    for proposal in _open(session, experiment_id):
-        cast = votes(session, proposal.id)
-        stay = [name for name in proposal.electorate if name not in names or name in cast]
-        if stay == proposal.electorate:
-            continue
-        journal(
-            session,
-            experiment_id,
-            "electorate_left",
-            proposal=proposal.id,
-            trainers=[name for name in proposal.electorate if name not in stay],
-        )
-        proposal.electorate = stay
-        if cast:
-            _conclude(session, experiment, proposal, cast)
-        concluded.append(_concluded(session, proposal))
-    return concluded
-
-
-def enter(session: Session, experiment_id: int, names: Sequence[str]) -> list[Concluded]:
-    """Those who are there now: open proposals that too few are left to judge are theirs too. Other electorates stay."""
-    experiment = load(session, experiment_id)
-    entered = []
-    may = [n for n in names if store_practice.may_count(session, experiment.id, experiment.practice_required, n)]
-    for proposal in _open(session, experiment_id):
-        new = [name for name in may if name not in proposal.electorate]
-        if new and aggregation.may_join(proposal.electorate, _least(experiment)):
-            proposal.electorate = [*proposal.electorate, *new]
-            entered.append(_concluded(session, proposal))
-    return entered
-
-
-def update(
-    session: Session, experiment_id: int, change: schemas.ExperimentUpdate
-) -> tuple[ExperimentRow, list[Concluded]]:
-    """Change what may change live. A new rule adds up the votes on open proposals anew; closed ones stay."""
-    experiment = load(session, experiment_id)
-    before = (experiment.aggregation, experiment.together)
-    row = store_experiments.update(session, experiment_id, change)
-    if (row.aggregation, row.together) == before:
-        return row, []
-    concluded = []
-    for proposal in _open(session, experiment_id):
-        if cast := votes(session, proposal.id):
-            _conclude(session, experiment, proposal, cast)
-        if proposal.closed_at is not None:
-            concluded.append(_concluded(session, proposal))
-    return row, concluded
-
-
 def judge(
     session: Session,
     proposal: ProposalRow,
@@ -238,20 +181,7 @@ def judge(
     close(session, proposal, schemas.CloseReason.JUDGED, said)
 
 
-def _open(session: Session, experiment_id: int) -> Sequence[ProposalRow]:
-    query = (
-        select(ProposalRow)
-        .where(
-            ProposalRow.experiment_id == experiment_id,
-            ProposalRow.closed_at.is_(None),
-            ProposalRow.purpose == "training",
-        )
-        .order_by(ProposalRow.number)
-    )
-    return session.scalars(query).all()
-
-
-def _conclude(
+def conclude(
     session: Session, experiment: ExperimentRow, proposal: ProposalRow, cast: Mapping[str, int | None]
 ) -> None:
     """Close it if the votes have come to an end: with their verdict, or because nobody could tell."""
@@ -263,14 +193,15 @@ def _conclude(
         close(session, proposal, schemas.CloseReason.CANT_TELL, cast.values())
 
 
-def _concluded(session: Session, proposal: ProposalRow) -> Concluded:
-    told = _told(session, proposal)
-    return Concluded(told, labels_of(session, proposal.id) if proposal.closed_at is not None else ())
-
-
-def _told(session: Session, proposal: ProposalRow) -> schemas.Proposal:
+def told(session: Session, proposal: ProposalRow) -> schemas.Proposal:
+    """As everyone is told of it, with what this transaction has changed."""
     session.flush()
     return proposal_wire(proposal)
+
+
+def least(experiment: ExperimentRow) -> int:
+    """How many have to say good."""
+    return Together.model_validate(experiment.together).least
 
 
 def _again(session: Session, proposal_id: int, click: schemas.FeedbackCreate, found: Row[Any] | None) -> Submission:
@@ -341,15 +272,11 @@ def _why_closed(session: Session, found: Row[Any]) -> str:
     }[reason]
 
 
-def _least(experiment: ExperimentRow) -> int:
-    return Together.model_validate(experiment.together).least
-
-
 def _must_have_vote(
     session: Session, experiment: ExperimentRow, proposal: ProposalRow, trainer: str
 ) -> dict[str, int | None]:
     """The votes so far."""
-    joins = trainer not in proposal.electorate and aggregation.may_join(proposal.electorate, _least(experiment))
+    joins = trainer not in proposal.electorate and aggregation.may_join(proposal.electorate, least(experiment))
     if joins:  # too few were there when it opened, or have stayed: it is for whoever comes
         proposal.electorate = [*proposal.electorate, trainer]
     cast = votes(session, proposal.id)
