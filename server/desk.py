@@ -44,7 +44,7 @@ from server.schemas import (
 from server.schemas_labels import RelabelCreate, label_of
 from server.schemas_trust import VerdictSource
 from server.seating import Seating
-from server.store import Store, StoreError
+from server.store import Conflict, Store, StoreError
 from server.store_values import Concluded, NewProposal, Relabelled, Submission
 from server.waiting import news_or_death
 
@@ -178,6 +178,13 @@ class Desk:
 
         What will be proposed after a bad click is often known by then (`ahead`); it is committed with the click.
         """
+        try:
+            return await self._feedback(proposal_id, body, kind)
+        except Conflict:
+            self._seating.stir(body.trainer)  # they are there, although this isn't theirs to judge
+            raise
+
+    async def _feedback(self, proposal_id: int, body: FeedbackCreate, kind: str) -> Submission:
         clicked = self._open.get(proposal_id)
         refused = self._seating.why_not(body.trainer, clicked) if clicked is not None and kind == "person" else None
         ahead = None
@@ -235,6 +242,8 @@ class Desk:
         self._ledger.undo(reopened.id, undone.feedback.id, label_of(undone.feedback.value))
         if reopened.closed_at is None:
             self._seating.give(feedback.trainer, reopened.id)
+            if undone.again:
+                self._seating.reopened(reopened)
         self.wake()
         return undone.feedback
 
@@ -378,14 +387,11 @@ class Desk:
         return None
 
     async def _time_out(self) -> None:
-        limit = self._experiment().feedback_timeout
-        if limit is not None:
-            await self.withdraw(CloseReason.TIMED_OUT, self._open.overdue(limit))
+        await self.withdraw(CloseReason.TIMED_OUT, self._open.overdue(self._experiment().feedback_timeout))
 
     def _left(self) -> float | None:
         """Seconds until the time of the oldest proposal is over; None: they have all the time."""
-        limit = self._experiment().feedback_timeout
-        return None if limit is None else self._open.left(limit)
+        return self._open.left(self._experiment().feedback_timeout)
 
     async def _news_or_death(self, seconds: float | None) -> bool:
         robot, learner = self._robot.post.death(), self._crew.learner.death()

@@ -259,9 +259,12 @@ class Hub:
             async with runner.turn():
                 experiment, concluded = await self.store.update_and_conclude(experiment_id, body)
                 runner.conclude(concluded)
+                if "practice_required" in body.model_fields_set:
+                    await self.seats.recount(experiment_id)
             runner.changed(experiment)
         else:
             experiment = await self.store.update_experiment(experiment_id, body)
+            await self.seats.recount(experiment_id)
             self._publisher.publish(experiment_id, ExperimentChanged(experiment=experiment))
         return self._live(experiment)
 

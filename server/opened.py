@@ -58,11 +58,13 @@ class Opened:
             self._closed = dict([*self._closed.items(), (proposal_id, closed)][-REMEMBERED:])
         self._since.pop(proposal_id, None)
 
-    def overdue(self, limit: float) -> list[int]:
-        """Those that have been open for so many seconds."""
-        over = time.monotonic() - limit
+    def overdue(self, limit: float | None) -> list[int]:
+        """Those that have been open for so many seconds; None: they have all the time."""
+        over = -1.0 if limit is None else time.monotonic() - limit
         return [proposal_id for proposal_id, since in self._since.items() if since <= over]
 
-    def left(self, limit: float) -> float | None:
-        """Seconds until the oldest has been open for so long; None: nothing is open."""
-        return max(0.0, min(self._since.values()) + limit - time.monotonic()) if self._since else None
+    def left(self, limit: float | None) -> float | None:
+        """Seconds until the oldest has been open for so long; None: nothing is, or they have all the time."""
+        if limit is None or not self._since:
+            return None
+        return max(0.0, min(self._since.values()) + limit - time.monotonic())

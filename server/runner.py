@@ -237,8 +237,8 @@ class Runner:
 
     async def _do_without(self, names: list[str]) -> None:
         """These trainers are gone: nothing that is open waits for them any more."""
-        if any(set(names) & set(proposal.electorate) for proposal in self.seating.opened()):
-            async with self.turn():
+        async with self.turn():  # also on what is just being opened
+            if any(set(names) & set(proposal.electorate) for proposal in self.seating.opened()):
                 self.conclude(await self._store.leave_electorates(self.experiment.id, names))
         await self._welcome()
 

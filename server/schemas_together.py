@@ -20,7 +20,8 @@ LeaseSeconds = Annotated[
         ge=1,
         le=3600,
         allow_inf_nan=False,
-        description="how long a proposal stays with the trainer it was given to, without a sign that they look at it",
+        description="how long a proposal stays with the trainer it was given to, without a sign that they look at it;"
+        " then they are away, and nobody waits for them",
     ),
 ]
 VanishSeconds = Annotated[
@@ -104,7 +105,13 @@ class Judge(_Wire):
         ),
     ] = False
     here: Annotated[bool, Field(description="whether a page of theirs is connected")] = True
-    away: Annotated[bool, Field(description="connected, but without a sign of life for longer than a lease")] = False
+    away: Annotated[
+        bool,
+        Field(
+            description="connected, but without a sign of life for longer than a lease: not asked, and not waited for,"
+            " until the next one"
+        ),
+    ] = False
 
 
 class NextCreate(_Wire):

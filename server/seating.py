@@ -2,14 +2,15 @@
 
 A trainer is seated by a connection, or, without one, by asking for a proposal or by clicking. Two connections of one
 trainer are one seat. A lease is renewed by every sign that they look; where it runs out the proposal goes back to the
-others, and they get one again as soon as they are back. All of it is in memory: what is open doesn't outlive a restart.
+others, nobody waits for them any more, and they get one again as soon as they are back. All of it is in memory: what
+is open doesn't outlive a restart.
 """
 
 from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 
@@ -26,6 +27,8 @@ class Seat:
 
     connections: how many pages are open. left: since when none is; it stays None while one is.
     away: they had something before them and showed no sign of life for as long as a lease, or closed their pages.
+    out: away although a page of theirs is open; nobody waits for them. It ends with a sign of life, and not with a
+    page that connects again by itself.
     counts: whether their clicks do; who has to practise first gets no proposal.
     finishing: what they may still judge until `finish_by`, although another's approval has closed it. finished: the
     id of the newest one that they have.
@@ -36,6 +39,7 @@ class Seat:
     left: float | None = None
     proposal: int | None = None
     away: bool = False
+    out: bool = False
     counts: bool = True
     finishing: Proposal | None = None
     finish_by: float = 0.0
@@ -59,7 +63,7 @@ class Seating:
         self.on_arrived: Callable[[], None] = lambda: None
         """Called when somebody has come who may judge."""
         self.on_vanished: Callable[[list[str]], None] = lambda _: None
-        """Called with the trainers who are gone for good."""
+        """Called with the trainers who are waited for no longer: gone, away, or not to judge before they practise."""
 
     # --- what others ask ----------------------------------------------------------------------------------------
 
@@ -71,7 +75,7 @@ class Seating:
     @property
     def names(self) -> list[str]:
         """Who is there, or has been until just now, and may judge: an electorate."""
-        return sorted(name for name, seat in self._seats.items() if seat.counts)
+        return sorted(name for name, seat in self._seats.items() if seat.counts and not seat.out)
 
     @property
     def short(self) -> bool:
@@ -127,9 +131,12 @@ class Seating:
 
     def arrive(self, trainer: str, *, counts: bool = True) -> None:
         """A page of theirs is open."""
-        seat = self._seated(trainer)
+        seat = self._seated(trainer, counts=counts)
         seat.connections += 1
-        seat.left, seat.looked, seat.away, seat.counts = None, self._clock(), False, counts
+        seat.left, seat.away = None, seat.out
+        if not seat.out:
+            seat.looked = self._clock()
+        self._count(trainer, seat, counts)
         self._settle(arrived=True)
 
     def depart(self, trainer: str, *, ago: float = 0.0) -> None:
@@ -147,15 +154,36 @@ class Seating:
                 seat.away, seat.proposal = True, None
             self._settle()
 
-    def look(self, trainer: str, *, counts: bool = True) -> None:
-        """A sign that they are at it, from a page or without one."""
+    def look(self, trainer: str, *, counts: bool | None = None) -> None:
+        """A sign that they are at it, from a page or without one. counts: whether their clicks do; None: as before."""
         arrived = trainer not in self._seats
-        seat = self._seated(trainer)
-        arrived |= counts and not seat.counts
-        seat.looked, seat.away, seat.counts = self._clock(), False, counts
+        seat = self._seated(trainer, counts=counts is not False)
+        arrived |= seat.out or (counts is True and not seat.counts)
+        seat.looked, seat.away, seat.out = self._clock(), False, False
+        if counts is not None:
+            self._count(trainer, seat, counts)
         if not seat.connections:
             seat.left = self._clock()
         self._settle(arrived=arrived)
+
+    def stir(self, trainer: str) -> None:
+        """A sign of life of somebody who has a seat."""
+        if trainer in self._seats:
+            self.look(trainer)
+
+    def recount(self, counts: Mapping[str, bool]) -> None:
+        """Whose clicks count from now on, of those who are there."""
+        known = {name: self._seats[name] for name in counts if name in self._seats}
+        arrived = any(counts[name] and not seat.counts for name, seat in known.items())
+        for name, seat in known.items():
+            self._count(name, seat, counts[name])
+        self._settle(arrived=arrived)
+
+    def reopened(self, proposal: Proposal) -> None:
+        """A click on it was taken back, and it is open again: of those who were asked then, some may have gone."""
+        there = {*self.names, *proposal.heard}
+        if absent := [name for name in proposal.electorate if name not in there]:
+            self.on_vanished(absent)
 
     def overtaken(self, closed: Sequence[Proposal]) -> None:
         """Another's approval has closed these: whoever has one before them may finish it."""
@@ -181,6 +209,7 @@ class Seating:
         if not seat.connections and seat.left is None:
             seat.left = self._clock()
         seat.looked, seat.away, seat.proposal, seat.finishing = self._clock(), False, proposal_id, None
+        seat.out = False
         self._settle()
 
     def deal(self) -> None:
@@ -221,8 +250,19 @@ class Seating:
     def _exclusive(self) -> bool:
         return assigning.is_exclusive(self._rule, parallel=self._together.parallel, least=self._together.least)
 
-    def _seated(self, trainer: str) -> Seat:
-        return self._seats.setdefault(trainer, Seat(looked=self._clock()))
+    def _seated(self, trainer: str, *, counts: bool = True) -> Seat:
+        return self._seats.setdefault(trainer, Seat(looked=self._clock(), counts=counts))
+
+    def _count(self, name: str, seat: Seat, counts: bool) -> None:
+        before, seat.counts = seat.counts, counts
+        if before and not counts:
+            self.on_vanished([name])
+
+    def _gone_at(self, seat: Seat) -> float:
+        """When they are gone, as they have no page open. Whoever asks without one says nothing while they think."""
+        together, thinks = self._together, seat.proposal is not None and seat.finishing is None
+        assert seat.left is not None
+        return seat.left + (max(together.vanish_seconds, together.lease_seconds) if thinks else together.vanish_seconds)
 
     def _due(self, seat: Seat) -> float:
         """When what they have goes back."""
@@ -240,29 +280,28 @@ class Seating:
             self._timer.cancel()
             self._timer = None
         due = [self._due(seat) for seat in self._seats.values() if seat.proposal is not None]
-        due += [s.left + self._together.vanish_seconds for s in self._seats.values() if s.left is not None]
+        due += [self._gone_at(seat) for seat in self._seats.values() if seat.left is not None]
         if due:
             wait = max(0.0, min(due) - self._clock())
             self._timer = asyncio.get_running_loop().call_later(wait, self.ring)
 
     def ring(self) -> None:
         """Take back what nobody looks at, and let go of those who are gone."""
-        now = self._clock()
-        for seat in self._seats.values():
+        now, silent = self._clock(), []
+        for name, seat in self._seats.items():
             if seat.proposal is None or self._due(seat) > now:
                 continue
             # who let one go by that nothing waited for isn't away yet, unless they don't look at the next one either
-            seat.away = seat.finishing is None or (seat.left is not None and seat.connections == 0)
+            if seat.finishing is None:
+                seat.out = True
+                silent.append(name)
+            seat.away = seat.out or (seat.left is not None and seat.connections == 0)
             seat.proposal = seat.finishing = None
-        gone = [
-            name
-            for name, seat in self._seats.items()
-            if seat.left is not None and seat.left + self._together.vanish_seconds <= now
-        ]
+        gone = [name for name, seat in self._seats.items() if seat.left is not None and self._gone_at(seat) <= now]
         for name in gone:
             del self._seats[name]
-        if gone:
-            self.on_vanished(gone)
+        if without := sorted({*silent, *gone}):
+            self.on_vanished(without)
         self._settle()
 
     def _judge(self, name: str, seat: Seat) -> Judge:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
@@ -56,6 +57,13 @@ class Seats:
         mine = seating.proposal_of(trainer)
         proposal = seating.finishing(trainer) or next((p for p in seating.opened() if p.id == mine), None)
         return Next(proposal=proposal, judge=next(judge for judge in seating.judges if judge.trainer == trainer))
+
+    async def recount(self, experiment_id: int) -> None:
+        """Another practice is required, or none: look whose clicks count now."""
+        seating = self.of(experiment_id)
+        names = [judge.trainer for judge in seating.judges]
+        told = await asyncio.gather(*(self._counts(experiment_id, name) for name in names))
+        seating.recount(dict(zip(names, told, strict=True)))
 
     async def _counts(self, experiment_id: int, trainer: str) -> bool:
         return (await self._store.quality.practice_progress(experiment_id, trainer)).counts

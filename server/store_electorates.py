@@ -5,7 +5,7 @@ Every function runs inside one write transaction.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 from sqlalchemy import select
 from sqlalchemy.orm import Session
@@ -27,20 +27,10 @@ def leave(session: Session, experiment_id: int, names: Collection[str]) -> list[
     experiment = load(session, experiment_id)
     for proposal in _open(session, experiment_id):
         cast = votes(session, proposal.id)
-        stay = [name for name in proposal.electorate if name not in names or name in cast]
-        if stay == proposal.electorate:
-            continue
-        journal(
-            session,
-            experiment_id,
-            "electorate_left",
-            proposal=proposal.id,
-            trainers=[name for name in proposal.electorate if name not in stay],
-        )
-        proposal.electorate = stay
-        if cast:
-            conclude(session, experiment, proposal, cast)
-        concluded.append(_concluded(session, proposal))
+        if _shrink(session, proposal, names, cast):
+            if cast:
+                conclude(session, experiment, proposal, cast)
+            concluded.append(_concluded(session, proposal))
     return concluded
 
 
@@ -60,19 +50,40 @@ def enter(session: Session, experiment_id: int, names: Sequence[str]) -> list[Co
 def update(
     session: Session, experiment_id: int, change: schemas.ExperimentUpdate
 ) -> tuple[ExperimentRow, list[Concluded]]:
-    """Change what may change live. A new rule adds up the votes on open proposals anew; closed ones stay."""
+    """Change what may change live. A new rule adds up the votes on open proposals anew; closed ones stay.
+
+    Where practice is required from now on, whoever has to practise first leaves what is open.
+    """
     experiment = load(session, experiment_id)
-    before = (experiment.aggregation, experiment.together)
+    rule, required = (experiment.aggregation, experiment.together), experiment.practice_required
     row = store_experiments.update(session, experiment_id, change)
-    if (row.aggregation, row.together) == before:
-        return row, []
+    anew, stricter = (row.aggregation, row.together) != rule, row.practice_required != required
     concluded = []
-    for proposal in _open(session, experiment_id):
-        if cast := votes(session, proposal.id):
-            conclude(session, experiment, proposal, cast)
-        if proposal.closed_at is not None:
+    for proposal in _open(session, experiment_id) if anew or stricter else ():
+        cast = votes(session, proposal.id)
+        left = stricter and _shrink(session, proposal, _unpractised(session, row, proposal), cast)
+        if cast and (anew or left):
+            conclude(session, row, proposal, cast)
+        if left or proposal.closed_at is not None:
             concluded.append(_concluded(session, proposal))
     return row, concluded
+
+
+def _shrink(
+    session: Session, proposal: ProposalRow, names: Collection[str], cast: Mapping[str, int | None]
+) -> list[str]:
+    """Ask these no more, unless they have voted; who it is."""
+    left = [name for name in proposal.electorate if name in names and name not in cast]
+    if left:
+        proposal.electorate = [name for name in proposal.electorate if name not in left]
+        journal(session, proposal.experiment_id, "electorate_left", proposal=proposal.id, trainers=left)
+    return left
+
+
+def _unpractised(session: Session, experiment: ExperimentRow, proposal: ProposalRow) -> list[str]:
+    """Those who are asked, and whose clicks don't count before they have practised."""
+    required = experiment.practice_required
+    return [n for n in proposal.electorate if not store_practice.may_count(session, experiment.id, required, n)]
 
 
 def _open(session: Session, experiment_id: int) -> Sequence[ProposalRow]:

@@ -103,10 +103,11 @@ def undo(session: Session, feedback_id: int, *, keep: Collection[int] = (), by: 
         judged.verdict is not None and verdict_of(session, experiment, judged, left) == judged.verdict
     )
     unlearned: list[int] = []
+    again = judged.closed_at is not None and not decided
     withdrawn = None if decided else _make_room(session, judged, keep)
     if judged.closed_at is not None and decided:
         count(experiment, row.label, -1)
-    elif judged.closed_at is not None:
+    elif again:
         unlearned = [label.feedback_id for label in labels_of(session, judged.id) if label.feedback_id != row.id]
         reopen(session, judged)
     row.undone_at = now()
@@ -115,7 +116,7 @@ def undo(session: Session, feedback_id: int, *, keep: Collection[int] = (), by: 
     journal(session, row.experiment_id, "undone", feedback=row.id, proposal=judged.id, by=row.trainer.name)
     session.refresh(judged, ["heard"])
     told = proposal_wire(withdrawn) if withdrawn else None
-    return Undone(feedback_wire(row), proposal_wire(judged), told, unlearned)
+    return Undone(feedback_wire(row), proposal_wire(judged), told, unlearned, again)
 
 
 def _make_room(session: Session, judged: ProposalRow, keep: Collection[int]) -> ProposalRow | None:

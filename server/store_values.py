@@ -107,13 +107,14 @@ class Undone:
     """A click taken back: its proposal is open again, and the one opened meanwhile is withdrawn.
 
     Where others' votes lead to the same verdict, `reopened` is still closed. unlearned: feedback ids of the others'
-    labels on it, which train no more until there is a verdict again.
+    labels on it, which train no more until there is a verdict again. again: it was closed until now.
     """
 
     feedback: Feedback
     reopened: Proposal
     withdrawn: Proposal | None
     unlearned: Sequence[int] = ()
+    again: bool = False
 
 
 @dataclass(frozen=True)

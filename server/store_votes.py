@@ -284,7 +284,7 @@ def _must_have_vote(
         raise Conflict(f"{trainer} has judged this proposal", remedy="undo that feedback first, or wait for the others")
     if experiment.aggregation != "first" and trainer not in proposal.electorate:
         raise Conflict(
-            f"{trainer} was not there when this proposal opened and has no vote on it",
+            f"{trainer} was not there when this proposal opened, or has been away since, and has no vote on it",
             remedy="judge the next proposal",
         )
     return cast

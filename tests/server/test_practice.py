@@ -112,6 +112,34 @@ async def test_a_requirement_can_be_set_and_lifted_and_a_task_that_cant_be_drawn
             assert told.fields[0].field.startswith("practice_required.")
 
 
+async def test_what_is_open_waits_no_longer_for_who_has_to_practise_from_now_on(tmp_path: Path) -> None:
+    async with serving(tmp_path) as live:
+        here = await live.experiment(aggregation="unanimous", mode="propose_only", **REQUIRED)
+        address, pages = f"/api/v1/experiments/{here}", f"{here}/stream?trainer="
+        for _ in range(3):
+            progress = (await answered(live, here, right=True, trainer="ann"))["progress"]
+        assert progress["counts"] is True
+        await live.http.patch(address, json={"practice_required": None})
+        async with live.stream(pages + "ann") as ann, live.stream(pages + "bob") as bob:
+            for page in (ann, bob):
+                await event(page, "snapshot")
+            await live.http.post(f"{address}/start")
+            proposal = (await event(ann, "proposal_opened"))["proposal"]
+            assert proposal["electorate"] == ["ann", "bob"]
+            feedback = f"/api/v1/proposals/{proposal['id']}/feedback"
+            assert (await live.http.post(feedback, json=live.click(1, trainer="ann"))).status_code == 201
+            assert (await live.http.patch(address, json=REQUIRED)).status_code == 200
+            closed = (await event(ann, "proposal_closed"))["proposal"]
+            assert (closed["id"], closed["verdict"], closed["electorate"]) == (proposal["id"], "good", ["ann"])
+            following = (await event(ann, "proposal_opened"))["proposal"]
+            assert following["electorate"] == ["ann"]
+            # lifted: he is asked for the next one
+            await live.http.patch(address, json={"practice_required": None})
+            feedback = f"/api/v1/proposals/{following['id']}/feedback"
+            assert (await live.http.post(feedback, json=live.click(-1, trainer="ann"))).status_code == 201
+            assert (await event(ann, "proposal_opened"))["proposal"]["electorate"] == ["ann", "bob"]
+
+
 async def test_nobody_waits_for_a_trainer_who_has_to_practise(store: Store) -> None:
     experiment_id = await running(store, aggregation="unanimous", **REQUIRED)
     for number, name in [(number, name) for number in range(1, 4) for name in ("ann", "cyd")]:

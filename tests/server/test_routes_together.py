@@ -60,6 +60,22 @@ async def test_the_robot_moves_once_the_least_that_is_needed_have_said_good(tmp_
         assert told.fields[0].field == "together.least"
 
 
+async def test_a_script_without_a_page_keeps_its_proposal_for_a_lease(tmp_path: Path) -> None:
+    async with serving(tmp_path) as live:
+        here = await live.experiment(together={"parallel": True, "vanish_seconds": 0})
+        address = f"/api/v1/experiments/{here}"
+        async with live.stream(f"{here}/stream") as viewer:
+            await live.http.post(f"{address}/start")
+            await event(viewer, "proposal_opened")
+            first = (await live.http.post(f"{address}/next", json={"trainer": "ann"})).json()
+            second = (await live.http.post(f"{address}/next", json={"trainer": "bob"})).json()
+            assert first["proposal"]["id"] is not None
+            assert second["proposal"] is None or second["proposal"]["id"] != first["proposal"]["id"]
+            click = live.click(-1, trainer="bob")
+            late = await live.http.post(f"/api/v1/proposals/{first['proposal']['id']}/feedback", json=click)
+            assert "before another trainer" in check_problem(late, 409).detail
+
+
 async def test_nobody_is_told_a_vote_before_the_proposal_is_closed(tmp_path: Path) -> None:
     async with serving(tmp_path) as live:
         experiment = await live.experiment(aggregation="majority")

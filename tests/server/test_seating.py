@@ -135,7 +135,7 @@ async def test_a_lease_lasts_while_they_look_and_goes_back_when_they_do_not() ->
     room.opened.append(proposal(2))
     room.seats.look("ann")
     assert room.at == {"ann": 2, "bob": 1}
-    assert room.vanished == []
+    assert room.vanished == ["ann"], "what was open waited for her no longer"
 
 
 async def test_who_leaves_gives_it_back_at_once_and_is_waited_for_a_while() -> None:
@@ -152,7 +152,9 @@ async def test_who_leaves_gives_it_back_at_once_and_is_waited_for_a_while() -> N
     assert room.vanished == []
     room.seats.arrive("ann")
     room.later(60)
-    assert room.vanished == []
+    assert room.vanished == ["bob"], "his lease is over; she has none"
+    room.vanished.clear()
+    room.seats.look("bob")
     room.seats.depart("ann")
     room.later(10)
     assert (room.vanished, room.seats.names) == (["ann"], ["bob"])
@@ -167,13 +169,19 @@ async def test_without_a_page_every_sign_of_life_is_a_seat_for_a_while() -> None
     room = Room(PARALLEL, opened=[proposal(1)])
     room.seats.look("ann")
     assert room.at == {"ann": 1}
-    room.later(9)
+    room.later(29)
     room.seats.look("ann")
-    room.later(9)
-    assert room.at == {"ann": 1}
+    room.later(29)
+    assert room.at == {"ann": 1}, "she thinks: nothing has to be said meanwhile"
     room.later(1)
     assert room.at == {}
     assert room.vanished == ["ann"]
+    room.opened.clear()
+    room.seats.look("ann")
+    room.later(9)
+    assert room.at == {"ann": None}
+    room.later(1)
+    assert room.at == {}, "who has nothing to think about asks again, or has gone"
 
 
 async def test_who_has_to_practise_gets_nothing_and_is_in_no_electorate() -> None:
@@ -182,8 +190,41 @@ async def test_who_has_to_practise_gets_nothing_and_is_in_no_electorate() -> Non
     room.seats.arrive("bob")
     assert (room.at, room.seats.names, room.seats.wanted(1)) == ({"ann": None, "bob": 1}, ["bob"], 1)
     room.opened.append(proposal(2))
-    room.seats.look("ann")
+    room.seats.look("ann", counts=True)
     assert room.at == {"ann": 2, "bob": 1}
+    room.seats.recount({"ann": False, "bob": True, "cyd": True})  # practice is required from now on
+    assert (room.at, room.seats.names, room.vanished) == ({"ann": None, "bob": 1}, ["bob"], ["ann"])
+    room.seats.recount({"ann": True, "bob": True})
+    assert room.at == {"ann": 2, "bob": 1}
+
+
+async def test_who_gives_no_sign_of_life_is_neither_asked_nor_waited_for_until_the_next_one() -> None:
+    together = Together(lease_seconds=30, vanish_seconds=10)
+    room = Room(together, opened=[proposal(1, electorate=("ann", "bob"))], rule=MAJORITY)
+    for name in ("ann", "bob"):
+        room.seats.arrive(name)
+    room.later(20)
+    room.seats.look("ann")
+    room.later(10)
+    assert (room.vanished, room.seats.names) == (["bob"], ["ann"])
+    assert [(judge.trainer, judge.here, judge.away) for judge in room.seats.judges] == [
+        ("ann", True, False),
+        ("bob", True, True),
+    ]
+    # a connection that comes again by itself is no sign of life
+    room.seats.depart("bob")
+    room.seats.arrive("bob")
+    assert (room.seats.names, room.at["bob"]) == (["ann"], None)
+    room.opened.append(proposal(2, electorate=tuple(room.seats.names)))
+    room.seats.deal()
+    assert room.at == {"ann": 1, "bob": None}
+    room.seats.look("bob")
+    assert room.seats.names == ["ann", "bob"]
+    # nothing waits for anybody: nobody is away
+    room.opened.clear()
+    room.seats.deal()
+    room.later(3600)
+    assert room.seats.names == ["ann", "bob"]
 
 
 async def test_a_proposal_that_is_gone_is_replaced_and_everyone_is_told_once() -> None:

@@ -167,6 +167,63 @@ async def test_a_majority_tells_who_was_heard_and_only_at_the_end_what_they_said
         assert (await s.hub.view(experiment.id)).counters.feedback == 3
 
 
+async def test_who_gives_no_sign_of_life_holds_up_no_quorum_and_is_asked_again_once_back(tmp_path: Path) -> None:
+    async with stage(tmp_path) as s:
+        experiment = await s.experiment(aggregation="unanimous", mode="propose_only", together=Together(least=2))
+        seats, here = s.hub.seats.of(experiment.id), experiment.id
+
+        def is_away(*names: str) -> bool:
+            return {judge.trainer for judge in seats.judges if judge.away} == {*names}
+
+        seat(s, here, "ann", "bob", "cyd")
+        await s.hub.act(here, "start")
+        proposal = (await judges(s, here, "ann", "bob", "cyd"))["ann"]
+        for name in ("ann", "bob"):
+            await say(s, name, proposal, 1)
+        assert closed(s, proposal) is None
+        # cyd's page is open, and nobody is at it
+        await s.hub.update(here, ExperimentUpdate(together=TogetherUpdate(lease_seconds=1)))
+        told = await told_closed(s, proposal)
+        assert (told.verdict, told.electorate) == (Verdict.GOOD, ["ann", "bob"])
+        await s.seen.until(lambda: is_away("ann", "bob", "cyd"))  # they neither, by now
+        await s.hub.update(here, ExperimentUpdate(together=TogetherUpdate(lease_seconds=3600)))
+        following = await s.seen.until(lambda: [p for p in seats.opened() if not p.electorate])
+        # nobody else is left to judge it: it is for whoever is back, and the least that have to say so hold
+        for name in ("cyd", "bob"):
+            await s.hub.seats.look(here, name)
+        (proposal,) = await s.seen.until(lambda: [p for p in seats.opened() if len(p.electorate) == 2])
+        assert (proposal.id, sorted(proposal.electorate)) == (following[0].id, ["bob", "cyd"])
+        await say(s, "cyd", proposal, 1)
+        assert closed(s, proposal) is None
+        with pytest.raises(Conflict, match="has been away since"):
+            await say(s, "ann", proposal, 1)
+        assert is_away(), "a click is a sign of life, also where it comes too late"
+        await say(s, "bob", proposal, 1)
+        assert (await told_closed(s, proposal)).verdict is Verdict.GOOD
+        assert (await judges(s, here, "ann", "bob", "cyd"))["ann"].electorate == ["ann", "bob", "cyd"]
+
+
+async def test_what_is_opened_again_waits_for_nobody_who_has_gone_meanwhile(tmp_path: Path) -> None:
+    async with stage(tmp_path) as s:
+        experiment = await s.experiment(
+            aggregation="unanimous", mode="propose_only", together=Together(vanish_seconds=0)
+        )
+        seat(s, experiment.id, "ann", "bob", "cyd")
+        await s.hub.act(experiment.id, "start")
+        proposal = (await judges(s, experiment.id, "ann", "bob", "cyd"))["ann"]
+        await say(s, "ann", proposal, 1)
+        veto = await say(s, "bob", proposal, -1)
+        await told_closed(s, proposal)
+        at = s.now
+        s.hub.seats.of(experiment.id).depart("cyd")
+        await s.seen.next(JudgesChanged, at, where=lambda e: len(e.judges) == 2)
+        at = s.now
+        await s.hub.undo(veto.id, by="bob")
+        await say(s, "bob", proposal, 1)
+        told = await s.seen.next(ProposalClosed, at, where=lambda e: e.proposal.id == proposal.id)
+        assert (told.proposal.verdict, told.proposal.electorate) == (Verdict.GOOD, ["ann", "bob"])
+
+
 async def test_nobody_there_and_it_waits_for_whoever_comes(tmp_path: Path) -> None:
     async with stage(tmp_path) as s:
         experiment = await s.experiment(aggregation="unanimous")

@@ -4136,7 +4136,7 @@ export interface components {
             here: boolean;
             /**
              * Away
-             * @description connected, but without a sign of life for longer than a lease
+             * @description connected, but without a sign of life for longer than a lease: not asked, and not waited for, until the next one
              * @default false
              */
             away: boolean;
@@ -5779,7 +5779,7 @@ export interface components {
             least: number;
             /**
              * Lease Seconds
-             * @description how long a proposal stays with the trainer it was given to, without a sign that they look at it
+             * @description how long a proposal stays with the trainer it was given to, without a sign that they look at it; then they are away, and nobody waits for them
              * @default 60
              */
             lease_seconds: number;
