@@ -48,8 +48,6 @@ class Member:
     """Of the experiment's stream."""
     pause: float | None
     chance: random.Random
-    frame_pause: float = 0.0
-    """Seconds before a picture is acknowledged."""
     clicks: list[Sent] = field(default_factory=list)
     fan_out: list[float] = field(default_factory=list)
     """Seconds from a proposal's opening (before its commit) until this member heard of it."""
@@ -58,7 +56,6 @@ class Member:
     connections: int = 0
     _open: int | None = None
     _pending: dict[str, Sent] = field(default_factory=dict)
-    _news: asyncio.Event = field(default_factory=asyncio.Event)
     _settled: asyncio.Event = field(default_factory=asyncio.Event)
     """No click waits for its answer."""
 
@@ -74,12 +71,6 @@ class Member:
                     await self._serve(socket, over)
             except (OSError, WebSocketException, InvalidHandshake, EOFError):
                 await asyncio.sleep(RETRY_S)
-
-    async def hears(self, proposals: int) -> None:
-        """Wait until it has heard of so many."""
-        while len(self.fan_out) < proposals:
-            self._news.clear()
-            await self._news.wait()
 
     async def _serve(self, socket: ClientConnection, over: asyncio.Event) -> None:
         for click in self._pending.values():
@@ -122,7 +113,6 @@ class Member:
     async def _listen(self, socket: ClientConnection) -> None:
         async for message in socket:
             if isinstance(message, bytes):
-                await asyncio.sleep(self.frame_pause)
                 await socket.send('{"type":"frame_ack"}')
                 continue
             # the messages of a crowd are many: only what it acts on is looked at
@@ -133,7 +123,6 @@ class Member:
                 self._open = int(_first(PROPOSAL, message))
                 opened = datetime.fromisoformat(_first(OPENED, message)).timestamp()
                 self.fan_out.append(time.time() - opened)
-                self._news.set()
             elif kind == "snapshot":
                 waiting = json.loads(message)["proposal"]
                 self._open = waiting["id"] if waiting else None

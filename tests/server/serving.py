@@ -87,12 +87,14 @@ class Serving:
 
 
 @contextlib.asynccontextmanager
-async def serving(data_dir: Path, **settings: Any) -> AsyncIterator[Serving]:
-    """Serve from `data_dir`; leaving ends every process."""
+async def serving(data_dir: Path, *, send_buffer: int | None = None, **settings: Any) -> AsyncIterator[Serving]:
+    """Serve from `data_dir`; leaving ends every process. send_buffer: bytes that the kernel keeps of what is sent."""
     options: dict[str, Any] = {"data_dir": data_dir, "create_first_experiment": False} | settings
     chosen = Settings(**options)
     with socket.socket() as listener:
         listener.bind(("127.0.0.1", 0))
+        if send_buffer is not None:  # those that it accepts have it too
+            listener.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, send_buffer)
         url = f"http://127.0.0.1:{listener.getsockname()[1]}"
         async with opened(chosen) as service:
             server = _InLoop(config(create_app(chosen, service), chosen))
