@@ -9,10 +9,12 @@ const NOBODY_SAID = "local";
 /** As the service takes it: 1 to 64 characters, none of them a control character. */
 // biome-ignore lint/suspicious/noControlCharactersInRegex: those are what a name may not hold
 const NAME = /^[^\x00-\x1f\x7f]{1,64}$/;
+/** How names begin that the service writes itself, and takes from nobody: `server/names.py`. */
+const THE_SERVICES = /^\s*(teacher:|somebody-|critic|evaluation|trainers)/i;
 const PATIENCE_MS = 3000;
 const ROLES: readonly Role[] = ["viewer", "trainer", "operator", "owner"];
 
-export const isName = (name: string): boolean => NAME.test(name);
+export const isName = (name: string): boolean => NAME.test(name) && !THE_SERVICES.test(name);
 
 export let ME = kept();
 /** Null: somebody has to sign in first. Without a login whoever sits here may do everything. */
