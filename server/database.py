@@ -149,7 +149,7 @@ class Database:
         """Connect when it is needed.
 
         elsewhere: has the writer; here are the readers only.
-        alone: nothing but writes goes on in this process. They are done in its event loop then: a thread would wait for
+        alone: little but writes goes on in this process. They are done in its event loop then: a thread would wait for
         the interpreter at every statement.
         """
         writer: dict[str, Any] = {"pool_size": 1, "max_overflow": 0}

@@ -75,8 +75,9 @@ class Worker:
         self._sent = 0
         self._waiting: dict[int, asyncio.Future[dict[str, Any]]] = {}
         self._held_back: set[int] = set()
+        self._closing = False
         self._gone = asyncio.Event()
-        self._death = ""
+        self._death = "is being ended"
         self._writer: asyncio.StreamWriter
         self._readers: list[asyncio.Task[None]] = []
 
@@ -125,7 +126,7 @@ class Worker:
         The future raises CommandFailed (the worker refuses; it is well) or WorkerDied.
         """
         future = asyncio.get_running_loop().create_future()
-        if not self.alive:
+        if not self.alive or self._closing:
             future.set_exception(self._obituary())
             return future
         self._sent += 1
@@ -193,6 +194,7 @@ class Worker:
     async def close(self, *, grace: float = 1.0) -> None:
         """Ask the process to end, by closing its channels; kill it after `grace` seconds. Waits until it is gone."""
         self._stop.close()  # which also stops whatever moves
+        self._closing = True
         if self.alive and self._writer.can_write_eof():
             self._writer.write_eof()
         try:

@@ -237,6 +237,15 @@ async def test_closing_stops_the_skill_and_ends_the_process(tmp_path: Path) -> N
     assert (await running)["stopped"]
 
 
+async def test_whoever_asks_a_worker_that_is_being_ended_is_told_so(tmp_path: Path) -> None:
+    robot = await build(tmp_path)
+    closing = asyncio.create_task(robot.worker.close(grace=30))
+    await asyncio.sleep(0)  # it has begun
+    with pytest.raises(WorkerDied, match="is being ended"):
+        await robot.call("observe")
+    await closing
+
+
 PARENT = """
 import asyncio, sys
 from pathlib import Path
