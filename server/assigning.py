@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 
 from server.aggregation import may_join
@@ -43,6 +44,20 @@ def choose(
     if is_exclusive(rule, parallel=parallel, least=least):
         theirs = [p for p in theirs if not at[p.id]]
     return min(theirs, key=lambda p: (at[p.id], -len(p.heard), p.number), default=None)
+
+
+def lighter(
+    trainer: str, opened: Sequence[Proposal], held: Mapping[str, int], rule: Aggregation, *, least: int = 1
+) -> Proposal | None:
+    """What a trainer who has only just got theirs is given instead: one that fewer others are at. None: they keep it.
+
+    Only where one answer decides: by the other rules everyone is asked about each, and nothing is won.
+    """
+    if rule is not Aggregation.FIRST or least > 1:
+        return None
+    others = Counter(held_id for name, held_id in held.items() if name != trainer)
+    found = choose(trainer, opened, held, rule, parallel=False)
+    return found if found is not None and others[found.id] < others[held[trainer]] else None
 
 
 def wanted(trainers: int, standing: int, *, parallel: bool) -> int:

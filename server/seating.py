@@ -20,12 +20,16 @@ from server.messages import JudgesChanged, StreamEvent
 from server.schemas import Aggregation, Proposal
 from server.schemas_together import Judge, Together
 
+BLINK = 1.0
+"""s in which nobody has thought about what they have just got: another one may still be put in its place."""
+
 
 @dataclass
 class Seat:
     """One trainer. Times are of the monotonic clock, s.
 
     connections: how many pages are open. left: since when none is; it stays None while one is.
+    fresh_until: so long what they got may still be changed for another one; 0 once they have looked at it.
     away: they had something before them and showed no sign of life for as long as a lease, or closed their pages.
     out: away although a page of theirs is open; nobody waits for them. It ends with a sign of life, and not with a
     page that connects again by itself.
@@ -38,6 +42,7 @@ class Seat:
     connections: int = 0
     left: float | None = None
     proposal: int | None = None
+    fresh_until: float = 0.0
     away: bool = False
     out: bool = False
     counts: bool = True
@@ -135,7 +140,7 @@ class Seating:
         seat.connections += 1
         seat.left, seat.away = None, seat.out
         if not seat.out:
-            seat.looked = self._clock()
+            seat.looked, seat.fresh_until = self._clock(), 0.0
         self._count(trainer, seat, counts)
         self._settle(arrived=True)
 
@@ -159,7 +164,7 @@ class Seating:
         arrived = trainer not in self._seats
         seat = self._seated(trainer, counts=counts is not False)
         arrived |= seat.out or (counts is True and not seat.counts)
-        seat.looked, seat.away, seat.out = self._clock(), False, False
+        seat.looked, seat.fresh_until, seat.away, seat.out = self._clock(), 0.0, False, False
         if counts is not None:
             self._count(trainer, seat, counts)
         if not seat.connections:
@@ -208,8 +213,8 @@ class Seating:
         seat = self._seated(trainer)
         if not seat.connections and seat.left is None:
             seat.left = self._clock()
-        seat.looked, seat.away, seat.proposal, seat.finishing = self._clock(), False, proposal_id, None
-        seat.out = False
+        seat.looked, seat.fresh_until, seat.away, seat.out = self._clock(), 0.0, False, False
+        seat.proposal, seat.finishing = proposal_id, None
         self._settle()
 
     def deal(self) -> None:
@@ -239,8 +244,13 @@ class Seating:
                     name, waiting, held, self._rule, parallel=together.parallel, least=together.least
                 )
                 if found is not None:
-                    seat.proposal = held[name] = found.id
-                    seat.looked = self._clock()
+                    held[name] = self._hand(seat, found)
+        for name, seat in sorted(self._seats.items(), key=lambda each: -each[1].fresh_until):  # the newest first
+            # who has no page open couldn't be told
+            if seat.proposal is not None and seat.connections and seat.fresh_until > self._clock():
+                found = assigning.lighter(name, list(opened.values()), held, self._rule, least=together.least)
+                if found is not None:
+                    held[name] = self._hand(seat, found)
         self._wind()
         self._tell()
 
@@ -263,6 +273,12 @@ class Seating:
         together, thinks = self._together, seat.proposal is not None and seat.finishing is None
         assert seat.left is not None
         return seat.left + (max(together.vanish_seconds, together.lease_seconds) if thinks else together.vanish_seconds)
+
+    def _hand(self, seat: Seat, proposal: Proposal) -> int:
+        """Put it before them as something new."""
+        seat.proposal, seat.looked = proposal.id, self._clock()
+        seat.fresh_until = seat.looked + BLINK
+        return proposal.id
 
     def _due(self, seat: Seat) -> float:
         """When what they have goes back."""

@@ -76,6 +76,32 @@ async def test_a_script_without_a_page_keeps_its_proposal_for_a_lease(tmp_path: 
             assert "before another trainer" in check_problem(late, 409).detail
 
 
+async def test_two_trainers_of_two_robots_are_each_at_another_one(tmp_path: Path, monkeypatch: Any) -> None:
+    monkeypatch.setattr("server.seating.BLINK", 3600.0)  # however long the second robot takes to start here
+    async with serving(tmp_path) as live:
+        here = await live.experiment(num_envs=2)
+        address, pages = f"/api/v1/experiments/{here}", f"{here}/stream?trainer="
+        async with live.stream(pages + "ann") as ann, live.stream(pages + "bob") as bob:
+
+            async def apart(but: set[int]) -> dict[str, int]:
+                """What each has, once they have different ones and none of these."""
+                while True:
+                    told = (await event(ann, "judges_changed"))["judges"]
+                    at = {judge["trainer"]: judge["proposal_id"] for judge in told if judge["proposal_id"]}
+                    if len(set(at.values()) - but) == 2:
+                        return at
+
+            for page in (ann, bob):
+                await event(page, "snapshot")
+            await live.http.post(f"{address}/start")
+            first = await apart(set())
+            # and the robot of whoever refuses has its next one judged by them
+            click = live.click(-1, trainer="bob", proposal_id=first["bob"])
+            await bob.send(json.dumps(click | {"type": "feedback"}))
+            second = await apart({first["bob"]})
+            assert second["ann"] == first["ann"]
+
+
 async def test_nobody_is_told_a_vote_before_the_proposal_is_closed(tmp_path: Path) -> None:
     async with serving(tmp_path) as live:
         experiment = await live.experiment(aggregation="majority")

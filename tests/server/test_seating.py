@@ -12,7 +12,7 @@ from server.assigning import MOST_SLOTS, choose, may_judge, wanted
 from server.messages import JudgesChanged, StreamEvent
 from server.schemas import Aggregation, Proposal
 from server.schemas_together import Together
-from server.seating import Seating
+from server.seating import BLINK, Seating
 
 FIRST, MAJORITY = Aggregation.FIRST, Aggregation.MAJORITY
 ALL = ("ann", "bob", "cyd")
@@ -24,7 +24,7 @@ def proposal(
     return Proposal(
         id=number,
         experiment_id=1,
-        robot=0,
+        robot=robot,
         episode=1,
         number=number,
         observation_id="o1",
@@ -225,6 +225,46 @@ async def test_who_gives_no_sign_of_life_is_neither_asked_nor_waited_for_until_t
     room.seats.deal()
     room.later(3600)
     assert room.seats.names == ["ann", "bob"]
+
+
+async def test_they_spread_over_what_opens_and_who_looks_already_keeps_theirs() -> None:
+    room = Room(Together(), opened=[proposal(1)])
+    for name in ALL:
+        room.seats.arrive(name)
+    room.seats.look("ann")
+    room.opened.append(proposal(2, robot=1))
+    room.seats.deal()
+    assert room.at == {"ann": 1, "bob": 2, "cyd": 1}, "as even as it gets, and no further"
+    room.opened.append(proposal(3, robot=2))
+    room.seats.deal()
+    assert room.at == {"ann": 1, "bob": 2, "cyd": 3}
+    # they meet at the last one; after a blink, or a look, it is theirs
+    room.opened = [proposal(3, robot=2)]
+    room.seats.deal()
+    room.seats.look("bob")
+    room.now += BLINK
+    room.opened.append(proposal(4))
+    room.seats.deal()
+    assert room.at == {"ann": 3, "bob": 3, "cyd": 3}
+
+
+async def test_nobody_is_moved_who_is_asked_about_each_or_has_no_page_to_be_told_by() -> None:
+    for rule, together in ((MAJORITY, Together()), (FIRST, Together(least=2))):
+        room = Room(together, rule, opened=[proposal(1)])
+        room.seats.arrive("ann")
+        room.seats.arrive("bob")
+        room.opened.append(proposal(2, robot=1))
+        room.seats.deal()
+        assert room.at == {"ann": 1, "bob": 1}
+        room.opened[0] = proposal(1, heard=("ann",))
+        room.seats.deal()
+        assert room.at == {"ann": 2, "bob": 1}
+    room = Room(Together(), opened=[proposal(1)])
+    room.seats.look("ann")
+    room.seats.look("bob")
+    room.opened.append(proposal(2, robot=1))
+    room.seats.deal()
+    assert room.at == {"ann": 1, "bob": 1}
 
 
 async def test_a_proposal_that_is_gone_is_replaced_and_everyone_is_told_once() -> None:
