@@ -143,7 +143,7 @@ def test_in_parallel_each_of_five_has_another_until_one_is_approved(gather: Gath
         return found if len(set(found.values())) == len(team) else None
 
     first = wait_for(mine, "a proposal of their own for each", START_MS / 1000)
-    expect(ann.test_id("votes")).to_contain_text("This one is yours; 4 other trainers judge others for the same scene.")
+    expect(ann.test_id("votes")).to_contain_text("This one is yours; 4 other trainers judge others.")
     ann.press(-1)
     ann.drawn(max(first.values()))
     assert [each.drawn() for each in team[1:]] == [first[name] for name in NAMES[1:]]

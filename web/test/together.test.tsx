@@ -42,6 +42,20 @@ const begun = next(
   }),
 );
 
+describe("two robots", () => {
+  const first = experiment({ num_envs: 2 });
+  const one = proposal(1, { robot: 0 });
+  const said = (...all: Judge[]) => votesIn(one, first, all);
+
+  it("says who else sees the same one, and not of somebody at the other robot that they do", () => {
+    expect(said(judge("local", 1), judge("ann", 1), judge("bob", 2))).toMatch(/^1 other trainer sees it too/);
+    expect(said(judge("local", 1), judge("ann", 2))).toBe(
+      "This one is yours; 1 other trainer judges another one.",
+    );
+    expect(said(judge("local", 1), judge("ann", null))).toBeNull();
+  });
+});
+
 describe("each a proposal of their own", () => {
   it("shows the one that is this trainer's, and offers no other", () => {
     expect(begun.proposal?.id).toBe(2);

@@ -4,6 +4,7 @@ import { type ReactNode, useCallback } from "react";
 import * as http from "../http";
 import { t } from "../i18n";
 import { decimal, percent, whole } from "../i18n/numbers";
+import { said } from "../i18n/said";
 import { Link } from "../router";
 import { usePolled } from "../usePolled";
 import type { Experiment, LabelQuality, Problem, TrainerFigures } from "../wire";
@@ -105,7 +106,7 @@ export function QualityCard(props: {
       <h2>{t("quality.title")}</h2>
       <p data-testid="agreement">
         {agreement.alpha === null
-          ? t("quality.noAlpha", { why: agreement.why ?? "" })
+          ? t("quality.noAlpha", { why: said(agreement.why ?? "") })
           : t("quality.alpha", {
               alpha: decimal(agreement.alpha),
               proposals: whole(agreement.proposals),

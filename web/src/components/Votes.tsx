@@ -38,9 +38,14 @@ function byRule(proposal: Proposal, experiment: Experiment, judges: Judge[]): st
     if (others === 0) return null;
     if (experiment.together.least > 1)
       return t("together.votesIn", { heard: heard.length, count: others + 1 });
-    if (!experiment.together.parallel) return t("together.firstDecides", { count: others });
+    const busy = judges.filter(
+      ({ trainer, away, proposal_id }) => trainer !== ME && !away && proposal_id !== null,
+    );
+    const too = busy.filter(({ proposal_id }) => proposal_id === proposal.id).length;
+    if (!experiment.together.parallel && too > 0) return t("together.firstDecides", { count: too });
     const me = judgeOf(judges);
-    return me?.proposal_id === proposal.id && !me.finishing ? t("together.yours", { count: others }) : null;
+    const mine = me?.proposal_id === proposal.id && !me.finishing;
+    return mine && busy.length > 0 ? t("together.yours", { count: busy.length }) : null;
   }
   const alone = electorate.length === 0 || (electorate.length === 1 && electorate[0] === ME);
   if (alone && others === 0) return null;
