@@ -200,7 +200,21 @@ describe("the lease", () => {
     await act(async () => vi.advanceTimersByTime(1000));
     expect(byTestId("votes").textContent).toContain("Still there?");
     await line({ judges: [judge("ann", 1), judge("local", null, true)] });
-    expect(byTestId("votes").textContent).toContain("went back to the others");
+    expect(byTestId("votes").textContent).toBe(
+      "You are away: move the mouse or touch the page to judge again.",
+    );
+  });
+
+  it("warns where all look at the same one, too, and says to whoever is away that nobody waits for them", async () => {
+    const judges = [judge("ann", 1), judge("local", 1)];
+    await line({ judges, leaseLeft: () => 5 }, majority);
+    await act(async () => vi.advanceTimersByTime(1000));
+    expect(byTestId("votes").textContent).toContain("decided without you");
+    await line({ judges: [judge("ann", 1), judge("local", null, true)] }, majority);
+    expect(byTestId("votes").textContent).toContain("You are away");
+    await line({ judges, leaseLeft: () => 5 });
+    await act(async () => vi.advanceTimersByTime(1000));
+    expect(byTestId("votes").textContent).not.toContain("You are away");
   });
 
   it("says nothing to who is alone", async () => {

@@ -58,12 +58,13 @@ function byRule(proposal: Proposal, experiment: Experiment, judges: Judge[]): st
   return `${votes} ${mine ? rule(proposal, experiment) : t("together.notAsked")}`;
 }
 
-/** Whether the lease of what is on the screen is about to end, or has ended. */
+/** Whether the lease of what is on the screen is about to end, or has ended: then nobody waits for this trainer. */
 function useLease({ experiment, judges, leaseLeft }: VotesProps): "fresh" | "ends" | "ended" {
   const [soon, setSoon] = useState(false);
   const { parallel, lease_seconds: lease } = experiment.together;
   const me = judgeOf(judges);
-  const watched = parallel && me !== null && me.proposal_id !== null && !me.finishing && judges.length > 1;
+  const waited = parallel || experiment.aggregation !== "first";
+  const watched = waited && me !== null && me.proposal_id !== null && !me.finishing && judges.length > 1;
   useEffect(() => {
     if (!watched) return;
     const check = () => setSoon(leaseLeft() <= Math.min(TOLD, lease / 3));
@@ -73,7 +74,7 @@ function useLease({ experiment, judges, leaseLeft }: VotesProps): "fresh" | "end
       setSoon(false);
     };
   }, [watched, lease, leaseLeft]);
-  if (parallel && me?.away) return "ended";
+  if (me?.away) return "ended";
   return watched && soon ? "ends" : "fresh";
 }
 
@@ -81,12 +82,15 @@ export function Votes(props: VotesProps) {
   const { proposal, experiment, judges } = props;
   const lease = useLease(props);
   const open = proposal !== null && isOpen(proposal) && experiment.lifecycle === "running";
-  const votes = open ? votesIn(proposal, experiment, judges) : null;
-  if (experiment.teacher || (votes === null && lease === "fresh")) return null;
+  const away = lease === "ended";
+  const votes = open && !away ? votesIn(proposal, experiment, judges) : null;
+  if (experiment.teacher || experiment.lifecycle !== "running" || (votes === null && lease === "fresh"))
+    return null;
+  const ends = experiment.together.parallel ? t("together.leaseEnds") : t("together.leaseEndsShared");
   return (
     <p className="votes soft" role="status" data-testid="votes" data-lease={lease}>
       {votes && <span>{votes}</span>}
-      {lease !== "fresh" && <b>{lease === "ends" ? t("together.leaseEnds") : t("together.leaseEnded")}</b>}
+      {lease !== "fresh" && <b>{away ? t("together.youAreAway") : ends}</b>}
     </p>
   );
 }
