@@ -58,7 +58,7 @@ async def told_after(data_dir: Path, value: int) -> Told:
     """What each reader is told before and after a vote, one that was taken back, a late one and one for practice."""
     async with house(data_dir) as home, AsyncExitStack() as left_at_the_end:
         body = {"name": "test", "task": "stacking", "adapter": "kinematic", "seed": 7, "aggregation": "majority"}
-        body |= {"together": {"vanish_seconds": 600}}
+        body |= {"together": {"vanish_seconds": 600}, "practice_required": {"proposals": 1, "accuracy": 1.0}}
         answer = await home.owner.post("/api/v1/experiments", json=body)
         here = int(answer.json()["id"])
 
@@ -71,7 +71,12 @@ async def told_after(data_dir: Path, value: int) -> Told:
         for role, reader in readers.items():
             connecting = home.live.stream(here, additional_headers=bearer(reader))
             streams[role] = await left_at_the_end.enter_async_context(connecting)
-        ann, bob, cyd, dan = [await enter(name) for name in ("Ann", "Bob", "Cyd", "Dan")]
+        ann, bob, cyd, dan, eve = [await enter(name) for name in ("Ann", "Bob", "Cyd", "Dan", "Eve")]
+        for who in (ann, bob, dan, eve):
+            shown = (await who.post(f"/api/v1/experiments/{here}/practice", json={})).json()
+            known = (await home.live.service.store.quality.practice(shown["id"])).known_answer
+            right = {"click_id": f"practice-{shown['id']:04}", "value": known}
+            assert (await who.post(f"/api/v1/practice/{shown['id']}/answer", json=right)).json()["progress"]["passed"]
         electorate = ("Ann", "Bob", "Cyd", "Dan", "Eve", "a trainer")
         # a single one, so that nothing depends on how much later another came
         closed = (await home.live.proposal(here, ("Ann",))).id
@@ -86,8 +91,6 @@ async def told_after(data_dir: Path, value: int) -> Told:
         for text in ("late-of-bob-1", "late-of-bob-2"):
             looked = {"observation_id": "another", "policy_version": 0}
             assert (await say(bob, at, text, value, looked=looked)).status_code == 409
-        required = {"practice_required": {"proposals": 2, "accuracy": 1.0}}
-        assert (await home.owner.patch(f"/api/v1/experiments/{here}", json=required)).status_code == 200
         practised = await say(cyd, at, "practice-of-cyd", value)
         assert practised.json()["status"] == "practice", practised.text
         assert (await home.owner.get(f"/api/v1/proposals/{at}")).json()["closed_at"] is None
