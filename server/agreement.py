@@ -32,18 +32,14 @@ class Agreement:
 
 
 def agreement(proposal: Ints, trainer: Ints, value: Ints) -> Agreement:
-    """Ordinal alpha of what was clicked, in the order it was: of a trainer's words on a proposal the newest one counts.
+    """Ordinal alpha of what each trainer said of a proposal, one word each (`store_clicks.words`).
 
     Each (N,): ids, and -1, 0 or +1. Who can't tell, or wasn't there, is missing.
     """
     _, item = np.unique(proposal, return_inverse=True)
-    trainers, who = np.unique(trainer, return_inverse=True)
-    pairs, pair = np.unique(item * len(trainers) + who, return_inverse=True)
-    newest = np.zeros(len(pairs), np.int8)
-    newest[pair] = value
-    counts = how_many(pairs // max(len(trainers), 1), newest)
+    counts = how_many(item, value)
     pairable = counts.sum(axis=1) > 1
-    heard = pairs[pairable[pairs // len(trainers)]] % len(trainers) if len(trainers) else pairs
+    heard = trainer[pairable[item]]
     counts = counts[pairable]
     of = (len(counts), int(counts.sum()), len(np.unique(heard)))
     if not len(counts):

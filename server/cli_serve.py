@@ -18,7 +18,7 @@ from server.app import create_app
 from server.errors import ServiceError
 from server.service import Service, opened
 from server.settings import Settings
-from server.store_process import StoreProcess
+from server.store_process import StoreProcess, WriterEnded
 
 LARGEST_MESSAGE = 64 * 1024
 """Bytes of a WebSocket message; a larger one closes the connection with 1009. Ours are below 300."""
@@ -28,7 +28,7 @@ GRACE = 3
 """Seconds that requests which are still being answered get when the service ends."""
 GIL_S = 0.0005
 """Seconds that a thread may compute before another gets its turn. Python's own 5 ms would be waited for at every
-message of a fan-out, because each send gives the interpreter up, while the store's writer is busy."""
+message of a fan-out, because each send gives the interpreter up, while the store reads."""
 
 GC = (5_000, 20, 50)
 """Thresholds of the garbage collector. It stands everything still while it goes through what hundreds of connections
@@ -55,9 +55,7 @@ async def run_server(settings: Settings, writer: StoreProcess, *, announce: Call
                 await _let_the_owner_in(service, settings, address, announce)
             await server.serve(sockets=[listener])
     if writer.died:
-        raise ServiceError(
-            503, "the process that writes to the database has ended", remedy="see the log, and start again"
-        )
+        raise WriterEnded
 
 
 async def _let_the_owner_in(

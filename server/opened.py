@@ -60,7 +60,9 @@ class Opened:
 
     def overdue(self, limit: float | None) -> list[int]:
         """Those that have been open for so many seconds; None: they have all the time."""
-        over = -1.0 if limit is None else time.monotonic() - limit
+        if limit is None:
+            return []
+        over = time.monotonic() - limit
         return [proposal_id for proposal_id, since in self._since.items() if since <= over]
 
     def left(self, limit: float | None) -> float | None:

@@ -25,12 +25,19 @@ from typing import Any, Self
 from server.principal import Principal, acting
 from server.store import Store
 from server.store_errors import StoreError
-from server.workers.channel import LENGTH
+from server.worker import framed, next_message
 
 log = logging.getLogger("seed.store")
 
 GRACE = 10.0
 """Seconds that it gets to commit what waits, once the service has let go of it."""
+
+
+class WriterEnded(StoreError):
+    """The process has ended by itself."""
+
+    def __init__(self) -> None:
+        super().__init__("the process that writes to the database has ended", remedy="start the service again")
 
 
 class StoreProcess:
@@ -78,10 +85,10 @@ class StoreProcess:
         """What a method of the store returns there, or raises.
 
         Raises:
-            StoreError: the process has ended.
+            WriterEnded: it can't be done any more. StoreError: what the method does.
         """
         if self._writer is None or self._closing or self.died:
-            raise _ended()
+            raise WriterEnded
         future: asyncio.Future[Any] = asyncio.get_running_loop().create_future()
         self._sent += 1
         self._waiting[self._sent] = future
@@ -102,7 +109,7 @@ class StoreProcess:
         """Hand replies to their callers until the process has closed its end."""
         try:
             while True:
-                number, result, error = pickle.loads(await _message(reader))
+                number, result, error = pickle.loads(await next_message(reader))
                 future = self._waiting.pop(number)
                 if future.done():  # its caller was cancelled
                     continue
@@ -123,24 +130,15 @@ class StoreProcess:
         self.died = self._opened and not self._closing
         for future in self._waiting.values():
             if not future.done():
-                future.set_exception(_ended())
+                future.set_exception(WriterEnded())
         self._waiting.clear()
         if self.died:
-            log.critical("%s; the service ends", _ended())
+            log.critical("%s; the service ends", WriterEnded())
             os.kill(os.getpid(), signal.SIGTERM)
 
 
-def _ended() -> StoreError:
-    return StoreError("the process that writes to the database has ended", remedy="start the service again")
-
-
 def _framed(message: object) -> bytes:
-    body = pickle.dumps(message, pickle.HIGHEST_PROTOCOL)
-    return LENGTH.pack(len(body)) + body
-
-
-async def _message(reader: asyncio.StreamReader) -> bytes:
-    return await reader.readexactly(LENGTH.unpack(await reader.readexactly(LENGTH.size))[0])
+    return framed(pickle.dumps(message, pickle.HIGHEST_PROTOCOL))
 
 
 # --- the other side -------------------------------------------------------------------------------------------------
@@ -158,7 +156,7 @@ async def _answer(end: socket.socket) -> None:
     """Do what is asked, in the order in which it is asked, until the service has closed its end."""
     reader, writer = await asyncio.open_unix_connection(sock=end)
     try:
-        first = await _message(reader)
+        first = await next_message(reader)
     except asyncio.IncompleteReadError:  # the service couldn't even begin
         return
     number, _, _, (url, data_dir, backup), _ = pickle.loads(first)
@@ -189,7 +187,7 @@ async def _answer(end: socket.socket) -> None:
 
         with contextlib.suppress(asyncio.IncompleteReadError, OSError):
             while True:
-                task = asyncio.create_task(do(*pickle.loads(await _message(reader))))
+                task = asyncio.create_task(do(*pickle.loads(await next_message(reader))))
                 under_way.add(task)
                 task.add_done_callback(under_way.discard)
         if under_way:

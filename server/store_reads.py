@@ -99,8 +99,7 @@ class Reads:
 
     async def open_proposals(self, experiment_id: int) -> list[schemas.Proposal]:
         """The proposals that wait for feedback, at most one in each slot of a robot, oldest first."""
-        at = {"experiment": experiment_id}
-        return await self._database.read(lambda s: [wire.proposal(row) for row in s.scalars(_OPEN, at)])
+        return await self._database.read(lambda session: _opened(session, experiment_id))
 
     async def superseded_by(self, proposal_id: int) -> tuple[list[schemas.Proposal], list[StoredLabel]]:
         """What the approval of a proposal has closed or overtaken, and what was said of that and trains by it."""
@@ -118,10 +117,8 @@ class Reads:
         """
 
         def look(session: Session) -> dict[str | None, Outlook]:
-            at = {"experiment": experiment_id}
             experiment = wire.experiment(store_experiments.load(session, experiment_id))
-            proposals = [wire.proposal(row) for row in session.scalars(_OPEN, at)]
-            executions = [wire.execution(row) for row in session.scalars(_RUNNING, at)]
+            proposals, executions = _opened(session, experiment_id), _executing(session, experiment_id)
             return {
                 trainer: Outlook(experiment, proposals, executions, _undoable(session, experiment_id, trainer))
                 for trainer in trainers
@@ -229,8 +226,7 @@ class Reads:
 
     async def running_executions(self, experiment_id: int) -> list[schemas.Execution]:
         """The executions without an outcome, at most one a robot, oldest first."""
-        at = {"experiment": experiment_id}
-        return await self._database.read(lambda s: [wire.execution(row) for row in s.scalars(_RUNNING, at)])
+        return await self._database.read(lambda session: _executing(session, experiment_id))
 
     async def metrics(
         self, experiment_id: int, cursor: str | None = None, limit: int = 50
@@ -302,9 +298,6 @@ class Reads:
 
         return await self._database.read(find)
 
-    async def _all(self, query: Select[T], convert: Callable[[T], W]) -> list[W]:
-        return await self._database.read(lambda session: [convert(row) for row in session.scalars(query)])
-
     async def _page(
         self,
         query: Select[T],
@@ -322,6 +315,14 @@ class Reads:
             return store_pages.page(session, query, key, convert, cursor=cursor, limit=limit, newest_first=newest_first)
 
         return await self._database.read(find)
+
+
+def _opened(session: Session, experiment_id: int) -> list[schemas.Proposal]:
+    return [wire.proposal(row) for row in session.scalars(_OPEN, {"experiment": experiment_id})]
+
+
+def _executing(session: Session, experiment_id: int) -> list[schemas.Execution]:
+    return [wire.execution(row) for row in session.scalars(_RUNNING, {"experiment": experiment_id})]
 
 
 def _undoable(session: Session, experiment_id: int, trainer: str | None) -> schemas.Feedback | None:

@@ -124,11 +124,10 @@ def _by(who: Ints, trainers: int) -> list[Ints]:
 
 
 def _others(item: Ints, who: Ints, value: Small, trainers: int) -> tuple[Ints, Ints]:
-    """By trainer: what others said of the same proposals, word by word; how much of it agrees, and how much it is."""
-    _, pair = np.unique(item * trainers + who, return_inverse=True)
-    everybodys, mine = how_many(item, value), how_many(pair, value)
-    alike = everybodys[item, value + 1] - mine[pair, value + 1]
-    others = everybodys.sum(axis=1)[item] - mine.sum(axis=1)[pair]
+    """By trainer: how much of what others said of the same proposals agrees with their one word, and how much it is."""
+    everybodys = how_many(item, value)
+    alike = everybodys[item, value + 1] - 1
+    others = everybodys.sum(axis=1)[item] - 1
     return _summed(who, alike, trainers), _summed(who, others, trainers)
 
 

@@ -27,6 +27,20 @@ HELD_BACK = frozenset({"flush"})
 """Commands that a worker answers later than ones that were sent after them: nothing waits behind these."""
 
 
+def framed(body: bytes) -> bytes:
+    """A message as it is written (`server/workers/channel.py`)."""
+    return LENGTH.pack(len(body)) + body
+
+
+async def next_message(reader: asyncio.StreamReader) -> bytes:
+    """The next one.
+
+    Raises:
+        asyncio.IncompleteReadError: the other side is gone.
+    """
+    return await reader.readexactly(LENGTH.unpack(await reader.readexactly(LENGTH.size))[0])
+
+
 class WorkerError(Exception):
     """Base of what can go wrong with a worker. `remedy` says what the reader can do about it."""
 
@@ -134,7 +148,7 @@ class Worker:
         if command in HELD_BACK:
             self._held_back.add(self._sent)
         message = json.dumps({"id": self._sent, "command": command, "arguments": arguments}).encode()
-        self._writer.write(LENGTH.pack(len(message)) + message)
+        self._writer.write(framed(message))
         return future
 
     def call(self, command: str, *, deadline: float, **arguments: Any) -> Coroutine[Any, Any, dict[str, Any]]:
@@ -212,9 +226,7 @@ class Worker:
         # OSError: a command that was written to a process just killed breaks the pipe for the reader too
         with contextlib.suppress(asyncio.IncompleteReadError, OSError):
             while True:
-                size = LENGTH.unpack(await reader.readexactly(LENGTH.size))[0]
-                reply = json.loads(await reader.readexactly(size))
-                self._settle(reply)
+                self._settle(json.loads(await next_message(reader)))
         try:
             await asyncio.to_thread(self._process.wait, 0.5)
         except subprocess.TimeoutExpired:  # a process that has closed its pipe but lives is of no use
@@ -227,8 +239,7 @@ class Worker:
     ) -> None:
         try:
             while True:
-                size = LENGTH.unpack(await reader.readexactly(LENGTH.size))[0]
-                payload = await reader.readexactly(size)
+                payload = await next_message(reader)
                 head = LENGTH.size + LENGTH.unpack(payload[: LENGTH.size])[0]
                 if on_frame is not None:
                     on_frame(payload[LENGTH.size : head], payload[head:])

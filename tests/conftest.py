@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from tests.live import LiveService
+from tests.live import LiveService, running_service
 from tests.simulators.franka import PYTHON as SIMULATOR
 
 
@@ -29,26 +29,16 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 @pytest.fixture(scope="module")
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveService]:
     """A running service without experiments; a test may kill and restart it."""
-    live = LiveService(tmp_path_factory.mktemp("service") / "data")
-    try:
-        live.start()
+    with running_service(tmp_path_factory.mktemp("service")) as live:
         yield live
         live.stop()
-    finally:
-        live.sweep()
-        live.http.close()
 
 
 @pytest.fixture
 def own_service(tmp_path: Path) -> Iterator[LiveService]:
     """A running service that no other test sees."""
-    live = LiveService(tmp_path / "data")
-    try:
-        live.start()
+    with running_service(tmp_path) as live:
         yield live
-    finally:
-        live.sweep()
-        live.http.close()
 
 
 @pytest.fixture(scope="session")

@@ -59,6 +59,20 @@ def free_port() -> int:
             return port
 
 
+def children(pid: int) -> list[int]:
+    """Ids of a process's children, whichever of its threads has made them."""
+    told = (task.read_text("ascii").split() for task in Path(f"/proc/{pid}/task").glob("*/children"))
+    return [int(child) for some in told for child in some]
+
+
+def gone(pid: int) -> bool:
+    """Whether a process has ended (a zombie has)."""
+    try:
+        return "\nState:\tZ" in Path(f"/proc/{pid}/status").read_text("utf-8")
+    except FileNotFoundError:
+        return True
+
+
 class LiveService:
     """`seed serve` on a port and data directory that stay the same when it is started again."""
 
@@ -92,8 +106,7 @@ class LiveService:
     def writer(self) -> int:
         """Of the process that writes to the database: the one child that was forked."""
         own = Path(f"/proc/{self.pid}/cmdline").read_bytes()
-        children = Path(f"/proc/{self.pid}/task/{self.pid}/children").read_text("utf-8").split()
-        (found,) = (int(child) for child in children if Path(f"/proc/{child}/cmdline").read_bytes() == own)
+        (found,) = (child for child in children(self.pid) if Path(f"/proc/{child}/cmdline").read_bytes() == own)
         return found
 
     def start(self) -> None:
@@ -178,3 +191,15 @@ class LiveService:
         with contextlib.closing(sqlite3.connect(f"file:{database}?mode=ro", uri=True)) as connection:
             connection.row_factory = sqlite3.Row
             return connection.execute(query, values).fetchall()
+
+
+@contextlib.contextmanager
+def running_service(folder: Path, **settings: str) -> Iterator[LiveService]:
+    """A service that runs, with its data in this folder; whatever is left of it at the end is killed."""
+    live = LiveService(folder / "data", **settings)
+    try:
+        live.start()
+        yield live
+    finally:
+        live.sweep()
+        live.http.close()

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from tests.benchmarks.result import Result
-from tests.live import LiveService, wait_for
+from tests.live import LiveService, children, wait_for
 from tests.server.long_past import lengthen
 
 CLICKS = 10
@@ -94,7 +94,6 @@ def _judge(service: LiveService, proposal: dict[str, Any]) -> None:
 
 def _megabytes(pid: int) -> Iterator[float]:
     """What a process and each of its children ever had in memory."""
-    children = (told.read_text("ascii").split() for told in Path(f"/proc/{pid}/task").glob("*/children"))
-    for each in (pid, *(int(child) for some in children for child in some)):
+    for each in (pid, *children(pid)):
         status = Path(f"/proc/{each}/status").read_text("utf-8")
         yield int(status.split("VmHWM:")[1].split()[0]) / 1024

@@ -28,7 +28,7 @@ import httpx
 
 from tests.benchmarks.result import Result
 from tests.crowd import Member, lost_or_doubled
-from tests.live import LiveService, free_port, wait_for
+from tests.live import LiveService, free_port, running_service, wait_for
 
 EXPERIMENTS, TRAINERS, VIEWERS = 20, 200, 100
 PAUSE_S = 2.0
@@ -109,9 +109,7 @@ def percentiles(values: list[float]) -> tuple[float, float]:
 @contextlib.contextmanager
 def busy_service(folder: Path, experiments: int) -> Iterator[tuple[LiveService, list[str]]]:
     """A service with so many experiments that run and never move, and the addresses of their streams."""
-    service = LiveService(folder / "data", SEED_LOG_LEVEL="error")
-    try:
-        service.start()
+    with running_service(folder, SEED_LOG_LEVEL="error") as service:
         for number in range(experiments):
             experiment = service.experiment(
                 name=f"Load {number}", adapter="kinematic", preset="stubborn", mode="propose_only", seed=number
@@ -120,9 +118,6 @@ def busy_service(folder: Path, experiments: int) -> Iterator[tuple[LiveService, 
         resume(service, starting=True)
         base = service.url.replace("http", "ws", 1)
         yield service, [f"{base}/api/v1/experiments/{n + 1}/stream" for n in range(experiments)]
-    finally:
-        service.sweep()
-        service.http.close()
 
 
 def resume(service: LiveService, *, starting: bool = False) -> None:

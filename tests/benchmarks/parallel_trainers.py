@@ -39,7 +39,7 @@ from robot_adapters.base import SkillCall
 from robot_adapters.tasks.base import Task
 from tests.benchmarks import _clicks as clicks
 from tests.benchmarks.result import Result
-from tests.live import LiveService
+from tests.live import LiveService, running_service
 
 TASK = "stacking"
 TRAINERS = (1, 2, 4, 8)
@@ -238,19 +238,13 @@ def run() -> Result:
         f"load of the machine at the start {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores"
     ]
     worst: dict[bool, float] = {}
-    with tempfile.TemporaryDirectory() as folder:
-        service = LiveService(Path(folder) / "data", SEED_LOG_LEVEL="error")
-        service.start()
-        try:
-            for refuse in (False, True):
-                rows = {n: [measure(service, n, seed, refuse=refuse) for seed in seeds] for n in TRAINERS}
-                one = statistics.fmean(each.a_minute for each in rows[1])
-                ratios = {n: statistics.fmean(each.a_minute for each in row) / one for n, row in rows.items()}
-                worst[refuse] = min(ratio / n for n, ratio in ratios.items())
-                lines += [_line(n, ratios[n], row, refuse=refuse) for n, row in rows.items()]
-        finally:
-            service.sweep()
-            service.http.close()
+    with tempfile.TemporaryDirectory() as folder, running_service(Path(folder), SEED_LOG_LEVEL="error") as service:
+        for refuse in (False, True):
+            rows = {n: [measure(service, n, seed, refuse=refuse) for seed in seeds] for n in TRAINERS}
+            one = statistics.fmean(each.a_minute for each in rows[1])
+            ratios = {n: statistics.fmean(each.a_minute for each in row) / one for n, row in rows.items()}
+            worst[refuse] = min(ratio / n for n, ratio in ratios.items())
+            lines += [_line(n, ratios[n], row, refuse=refuse) for n, row in rows.items()]
     lines.append(f"load of the machine at the end {os.getloadavg()[0]:.1f}")
     return Result(
         "parallel_trainers",

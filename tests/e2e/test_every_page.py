@@ -14,7 +14,7 @@ from agent.study.figures import write_figures
 from agent.study.results import write_results
 from tests.e2e.test_pages import PHONE, accessible, fits
 from tests.e2e.test_research import taught
-from tests.live import ROOT, LiveService
+from tests.live import ROOT, LiveService, running_service
 from tests.server.study_folder import begun, plan
 
 ENTRY = ROOT / "web" / "src" / "App.tsx"
@@ -54,9 +54,7 @@ REACHED = """
 @pytest.fixture(scope="module")
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveService]:
     """A service that asks who is there, with a study and somebody who is invited: something for every page."""
-    live = LiveService(tmp_path_factory.mktemp("service") / "data", SEED_LOGIN="1")
-    try:
-        live.start()
+    with running_service(tmp_path_factory.mktemp("service"), SEED_LOGIN="1") as live:
         live.sign_in()
         folder = begun(live.data_dir / "studies" / "mine")
         write_results(folder, plan())
@@ -66,9 +64,6 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveService]:
             live.post("/sign-in", {"token": made["token"], "name": name, "bearer": True})
         yield live
         live.stop()
-    finally:
-        live.sweep()
-        live.http.close()
 
 
 @pytest.fixture(scope="module")

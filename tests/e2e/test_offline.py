@@ -13,7 +13,7 @@ from playwright.sync_api import Browser, expect
 
 from tests.cable import Cable
 from tests.e2e.trainer import ONE_KEPT, START_MS, TrainerPage
-from tests.live import LiveService, wait_for
+from tests.live import LiveService, running_service, wait_for
 
 VANISH = 1.0
 
@@ -21,19 +21,8 @@ VANISH = 1.0
 @pytest.fixture
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveService]:
     """One that finds a dead connection within two seconds, by the protocol's pings."""
-    with _running(tmp_path_factory.mktemp("offline"), SEED_PING_INTERVAL="1") as live:
+    with running_service(tmp_path_factory.mktemp("offline"), SEED_PING_INTERVAL="1") as live:
         yield live
-
-
-@contextmanager
-def _running(folder: Path, **settings: str) -> Iterator[LiveService]:
-    live = LiveService(folder / "data", **settings)
-    try:
-        live.start()
-        yield live
-    finally:
-        live.sweep()
-        live.http.close()
 
 
 @contextmanager
@@ -99,7 +88,7 @@ def test_who_has_vanished_clicks_on_and_each_click_is_stored_once_when_the_netwo
 def test_thirty_seconds_off_line_with_the_settings_that_everybody_has(
     browser: Browser, browser_context_args: dict[str, Any], tmp_path: Path
 ) -> None:
-    with _running(tmp_path) as service:
+    with running_service(tmp_path) as service:
         experiment = service.experiment(adapter="kinematic", preset="stubborn", aggregation="majority")
         with _bob(browser, browser_context_args, service, experiment) as (bob, cable, first):
             cable.pull()

@@ -6,6 +6,7 @@ import inspect
 import os
 import pickle
 import signal
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -14,20 +15,16 @@ from server.store import Store
 from server.store_errors import BadCursor, Conflict, Full, NotFound, StoreError
 from server.store_people import PeopleStore, WrongToken
 from server.store_quality import QualityStore
-from tests.live import LiveService, wait_for
-
-
-def _running(pid: int) -> bool:
-    try:
-        return Path(f"/proc/{pid}/stat").read_text("utf-8").rsplit(")", 1)[1].split()[0] != "Z"
-    except FileNotFoundError:
-        return False
+from tests.live import LiveService, gone, wait_for
 
 
 @pytest.fixture
-def service(tmp_path: Path) -> LiveService:
+def service(tmp_path: Path) -> Iterator[LiveService]:
     """One that isn't started yet."""
-    return LiveService(tmp_path / "data")
+    made = LiveService(tmp_path / "data")
+    yield made
+    made.sweep()
+    made.http.close()
 
 
 def _click(service: LiveService, experiment: int, click_id: str) -> int:
@@ -43,39 +40,33 @@ def _click(service: LiveService, experiment: int, click_id: str) -> int:
 
 
 def test_a_service_whose_writer_is_killed_ends_and_its_next_start_goes_on(service: LiveService) -> None:
-    try:
-        service.start()
-        experiment = service.experiment(adapter="kinematic", mode="propose_only")
-        service.post(f"/experiments/{experiment}/start")
-        judged = _click(service, experiment, "click-before")
-        os.kill(service.writer, signal.SIGKILL)
-        assert service._process is not None
-        assert service._process.wait(30) != 0
-        assert "the process that writes to the database has ended; the service ends" in service.log()
+    service.start()
+    experiment = service.experiment(adapter="kinematic", mode="propose_only")
+    service.post(f"/experiments/{experiment}/start")
+    judged = _click(service, experiment, "click-before")
+    os.kill(service.writer, signal.SIGKILL)
+    assert service._process is not None
+    assert service._process.wait(30) != 0
+    assert "the process that writes to the database has ended; the service ends" in service.log()
 
-        service.start()
-        assert service.get(f"/experiments/{experiment}")["lifecycle"] == "paused"
-        assert [row["proposal_id"] for row in service.rows("SELECT proposal_id FROM feedback")] == [judged]
-        service.post(f"/experiments/{experiment}/resume")
-        assert _click(service, experiment, "click-after") != judged
-    finally:
-        service.sweep()
+    service.start()
+    assert service.get(f"/experiments/{experiment}")["lifecycle"] == "paused"
+    assert [row["proposal_id"] for row in service.rows("SELECT proposal_id FROM feedback")] == [judged]
+    service.post(f"/experiments/{experiment}/resume")
+    assert _click(service, experiment, "click-after") != judged
 
 
 @pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM])
 def test_the_writer_ends_with_its_service_and_not_before(service: LiveService, how: signal.Signals) -> None:
-    try:
-        service.start()
-        writer = service.writer
-        os.kill(writer, signal.SIGTERM)  # as everything of a service gets it from a supervisor or a terminal
-        os.kill(writer, signal.SIGINT)
-        service.experiment(adapter="kinematic")
-        os.kill(service.pid, how)
-        assert service._process is not None
-        service._process.wait(30)
-        wait_for(lambda: not _running(writer), "the writer to end")
-    finally:
-        service.sweep()
+    service.start()
+    writer = service.writer
+    os.kill(writer, signal.SIGTERM)  # as everything of a service gets it from a supervisor or a terminal
+    os.kill(writer, signal.SIGINT)
+    service.experiment(adapter="kinematic")
+    os.kill(service.pid, how)
+    assert service._process is not None
+    service._process.wait(30)
+    wait_for(lambda: gone(writer), "the writer to end")
 
 
 def test_every_method_that_writes_is_marked_for_the_writer() -> None:

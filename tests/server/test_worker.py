@@ -18,6 +18,7 @@ import pytest
 
 from robot_adapters.base import SkillCall
 from server.worker import CommandFailed, Worker, WorkerDied, WorkerTimeout
+from tests.live import gone
 
 DEADLINE = 60.0
 PICK = SkillCall("pick", (0.6, 0.1, -0.05))
@@ -89,14 +90,6 @@ def label(number: int, value: int) -> dict[str, Any]:
     state = [0.56, 0.0, -0.09, 0.6, 0.1, -0.087]
     call = {"skill": "pick", "parameters": [0.56, 0.0, -0.09]}
     return {"id": number, "state": state, **call, "value": value, "trainer": 1}
-
-
-def gone(pid: int) -> bool:
-    """Whether a process has ended (a zombie has)."""
-    try:
-        return "\nState:\tZ" in Path(f"/proc/{pid}/status").read_text()
-    except FileNotFoundError:
-        return True
 
 
 async def test_an_observation_comes_with_its_pictures(robot: Robot, tmp_path: Path) -> None:
